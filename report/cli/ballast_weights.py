@@ -33,7 +33,7 @@ def fill_ballast(
         arrays = {row["id"]: row for row in sheet.inputs["arrays"] if row.get("id") in shapes}
         blocks, outside = loads(rows, {name: shapes[name] for name in arrays})
         if not blocks:
-            what = "no block of the map is within an array of the plan"
+            what = "no ballast block of the map is inside an array on the plan"
             raise InputError(f"{what}; give --units of the map, or x and y from the plan's origin")
         weights = {name: load.blocks * block_n for name, load in blocks.items()}
         cell_values: dict[str, float | None] = {**weights}

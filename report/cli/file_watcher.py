@@ -52,7 +52,7 @@ def report_again(workbook: Path, out: Path | None, former: bytes) -> bytes:
     show(made)
     if former:
         items = changes(former_from(former, made.folder), made.assessment).items
-        say(f"changes since the round before: {len(items)}")
+        say(f"changes since the last report: {len(items)}")
         for item in items[:MAX_CHANGES]:
             say(f"  {item.title} {item.cell}".rstrip() + f": {item.before} -> {item.now}")
     return made.files["results.json"]

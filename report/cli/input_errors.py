@@ -81,7 +81,8 @@ def say_earlier_outputs(outputs: Sequence[Path]) -> None:
         return
     newest = dt.datetime.fromtimestamp(max(path.stat().st_mtime for path in files))
     subject = f"{files[0]} is" if len(files) == 1 else f"{files[0]} and {len(files) - 1} more are"
-    line = f"{subject} of an earlier run, {newest:%Y-%m-%d %H:%M}, and not replaced"
+    were = "was" if len(files) == 1 else "were"
+    line = f"{subject} from an earlier run ({newest:%Y-%m-%d %H:%M}) and {were} not replaced"
     click.echo(plain(line), err=True)
 
 
@@ -114,8 +115,8 @@ def system_problem(error: OSError) -> Problem:
             "of files",
         )
     return Problem(
-        f"{error.filename}: the system refuses it ({reason})",
-        "correct the path, its rights or the space on its disk",
+        f"{error.filename}: the operating system denied access ({reason})",
+        "check the path, its permissions and the free disk space",
     )
 
 

@@ -35,7 +35,7 @@ def add_motions(
         # A default would be wrong in silence: ground motions go through the building.
         if project and not recorded_at:
             raise InputError(
-                "--at is missing; give --at roof or --at ground, where the motions were recorded"
+                "--at is missing; use --at roof or --at ground, where the motions were recorded"
             )
         folder, name_of_all = source, ""
         if not folder.is_dir():
@@ -52,7 +52,7 @@ def add_motions(
         for line in table(sets):
             click.echo(plain(line))
         for name, reason in refused:
-            click.echo(plain(f"not taken: {name}: {reason}"))
+            click.echo(plain(f"skipped: {name}: {reason}"))
         without = [name for name, records in sets.items() if len(records) == 2]
         if without:
             click.echo(
@@ -61,7 +61,7 @@ def add_motions(
                 " from analysis is not permitted with these."
             )
         if not sets:
-            raise InputError("no set of two horizontal records and a vertical one to take")
+            raise InputError("no set of two horizontal records and a vertical one found")
         if not project:
             return
         cells = {
@@ -74,6 +74,6 @@ def add_motions(
             change.fill(row_cells(change.book, added))
         path = change.book.path
         click.echo(f"{path.parent}: {numbered(len(change.files), 'record')} copied.")
-        rows_added = f"{numbered(len(added), 'row')} added to the sheet Motions"
+        rows_added = f"{numbered(len(added), 'row')} added to the Motions worksheet"
         click.echo(f"{path}: {rows_added}: {change.areas}")
         say_next(path, change.has_formulas)

@@ -103,8 +103,8 @@ def _print_changes(changes: Changes) -> None:
     # Both changed: one alone may be a correction.
     if {"Project name", "Project number"} <= before.keys():
         click.echo(
-            f"--since is of another project: {before['Project number']},"
-            f" {before['Project name']}; check that it is the former revision of this one"
+            f"the --since file is from another project: {before['Project number']},"
+            f" {before['Project name']}; check that it is the previous revision of this one"
         )
     click.echo(
         f"since revision {changes.revision}: {counted(changes)}; the package lists them after its "

@@ -86,7 +86,7 @@ AS_JSON = click.option(
     "--json", "as_json", is_flag=True, help="Print JSON, with the units in the keys."
 )
 FAIL_ON_NG = click.option(
-    "--fail-on-ng", is_flag=True, help=f"Exit with code {NOT_OK} where the verdict is not OK."
+    "--fail-on-ng", is_flag=True, help=f"Exit with code {NOT_OK} if the verdict is not OK."
 )
 
 

@@ -38,9 +38,9 @@ COMPARING = 0.1
 """Usual time of the comparison, as a share of that of the package."""
 
 _ANSWERS = {
-    "same": "Same: the input in the package gives this package, to the byte.",
-    "not compared in full": "Not compared in full; nothing differs in what was compared:",
-    "differs": "Differs from what the input in the package gives:",
+    "same": "Same: the embedded input gives this package byte for byte.",
+    "not compared in full": "Not compared in full; no differences in what was compared:",
+    "differs": "Differs from the package that its embedded input gives:",
 }
 
 
@@ -112,18 +112,18 @@ def made_again(workbook: Path, out: Path, earlier: list[Path], progress: Progres
 
 def _print(proof: Proof, written: str) -> None:
     if proof.known_errors:
-        click.echo("Errors of the version that made the package, which it may have:")
+        click.echo("Known errors of the version that created the package, which may affect it:")
     for error in proof.known_errors:
         click.echo(f"  {error.error} {error.action}")
     click.echo(_ANSWERS[proof.answer])
     for reason in proof.reasons:
         say(f"  {reason}")
     if written:
-        click.echo(plain(f"The package made again: {written}"))
+        click.echo(plain(f"The regenerated package: {written}"))
     for signature in proof.signed:
         click.echo(
             plain(
-                f"Signed since, in the field '{signature.field}', by '{signature.signer}'. Who "
-                "issued the certificate was not checked: a PDF reader does."
+                f"Signed since, in the field '{signature.field}', by '{signature.signer}'. The "
+                "issuer of the certificate was not checked; a PDF reader does that."
             )
         )

@@ -89,7 +89,7 @@ def read_plan(
         lines.append(_line(outline, gap_m, us_first(inputs)))
     lines += unread(plan)
     lines += [f"layer {name}: {kind.value}" for name, kind in layer_kinds.items()]
-    lines.append(f"{change.book.path}: the plan is filled in: {change.areas}")
+    lines.append(f"{change.book.path}: plan updated: {change.areas}")
     for text in (*lines, *plan_lines, *clearance_lines, *withdrawn_lines):
         click.echo(plain(text))
     say_next(project, change.has_formulas)
@@ -139,9 +139,9 @@ def choose(
         for line in _table(drawing, outlines, kinds):
             click.echo(plain(line))
         raise InputError(
-            f"nothing is written: nobody says what is drawn on {numbered(len(kinds), 'layer')};"
-            " add --accept to take what is proposed, or --layer NAME=KIND for a layer, where KIND"
-            f" is one of {', '.join(LayerKind)}"
+            f"nothing was written: no type is known for {numbered(len(kinds), 'layer')};"
+            " use --accept to accept the proposed types, or --layer NAME=KIND for a layer, where"
+            f" KIND is one of {', '.join(LayerKind)}"
         )
     return {**option_kinds, **{layer: kind for layer, kind in kinds.items() if kind}}
 
@@ -163,7 +163,7 @@ def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
     if not unit:
         if roof_drawing.other_unit:
             raise InputError(roof_drawing.other_unit)
-        raise InputError(f"states no unit; add --units with one of {', '.join(UNIT_CHOICES)}")
+        raise InputError(f"states no unit; use --units with one of {', '.join(UNIT_CHOICES)}")
     return roof_drawing, LENGTHS[unit]
 
 
@@ -176,12 +176,12 @@ def _turned(drawing: RoofDrawing, rotate_deg: float) -> tuple[RoofDrawing, list[
     lines = []
     if degrees:
         drawing = drawing.turned(degrees)
-        lines += [f"turned counterclockwise by {degrees:.6g}° about the origin of the drawing"]
+        lines += [f"rotated counterclockwise by {degrees:.6g}° about the origin of the drawing"]
     if not math.isnan(drawing.north_deg):
         north = f"{drawing.north_deg:.6g}° counterclockwise from +x"
-        lines += [f"north is {north}: check it on the sheet Building"]
+        lines += [f"north is {north}: check it on the Building worksheet"]
     elif degrees:
-        lines += ["the drawing states no north: check its direction on the sheet Building"]
+        lines += ["the drawing states no north: check its direction on the Building worksheet"]
     return drawing, lines
 
 

@@ -38,10 +38,10 @@ def run(
             cost = estimate(plan)
             capacity_runs = f"; at most {cost.capacity_runs:,} more runs for the capacities"
             click.echo(
-                f"{cost.cases:,} cases, {cost.runs:,} runs in {cost.parts:,} parts"
+                f"{cost.cases:,} cases, {cost.runs:,} runs in {cost.parts:,} batches"
                 f"{capacity_runs if cost.capacity_runs else ''}"
             )
-            click.echo(f"{cost.disk_bytes / 1e6:,.1f} MB on disk")
+            click.echo(f"{cost.disk_bytes / 1e6:,.1f} MB of disk space")
             return
         folder = output_folder(out, home, "out/study", (TABLE, NAME))
         # A folder that was asked for by name may have the study of another workbook.

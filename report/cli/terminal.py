@@ -69,4 +69,6 @@ def say_next(project: Path, has_formulas: bool) -> None:
     """Say what comes after cells of a workbook were filled in."""
     click.echo(f"Next: {command('check', project)}")
     if has_formulas:
-        click.echo("Formulas that refer to it have no value until Excel or LibreOffice saves it.")
+        click.echo(
+            "Open and save the workbook in Excel or LibreOffice once to recalculate its formulas."
+        )

@@ -104,7 +104,7 @@ OF_MOTIONS = frozenset(
     {"motions", "results", "comparison", "model", "accuracy", "hashes", "spectra", "histories"}
 )
 
-LETTER = Part(id="letter", number="", title="Letter of results")  # before the first page
+LETTER = Part(id="letter", number="", title="Results letter")  # before the first page
 
 # After the summary, without a number: the other parts have the same in every revision.
 CHANGES = Page("changes", "Changes", _alone(changes.page))

@@ -52,7 +52,7 @@ def _dates(data: ProjectInput) -> Iterator[Check]:
         ("friction report", tests.date, Place("friction_tests", 0, "date"),
          f"{compare} Test report covered."),
         ("seismic parameters", data.site.hazard_date, Place("site", 0, "hazard_date"),
-         f"{compare} Hazard covered."),
+         f"{compare} Seismic parameters covered."),
         ("confirmation of the provisions", data.confirmation.date,
          Place("confirmation", 0, "date"), f"{again}; until then the marks † remain."),
         ("confirmation of the drawing", data.project.drawing_confirmed_date,

@@ -22,7 +22,7 @@ def mu_words(law: Friction) -> str:
     """Return friction as it was run, from low to high velocity."""
     sliding = coefficient(law.mu_slow)
     if law.is_by_velocity:
-        sliding += f" to {coefficient(law.mu_fast)}, velocity-dependent"
+        sliding += f" to {coefficient(law.mu_fast)} with velocity"
     rest = "" if law.mu_static == law.mu_slow else f", {coefficient(law.mu_static)} at rest"
     return f"{sliding}{rest}"
 

@@ -15,12 +15,11 @@ from report.cli.options import AS_JSON, QUIET, SOURCE
 @QUIET
 @AS_JSON
 def check(source: Path, **options: Any) -> None:
-    """Check the input, and print what is known without a run; write nothing.
+    """Check the input and the limits that need no run. Writes no files.
 
-    An error stops the work. A warning may be intended: give its name, printed in brackets, and a
-    reason on the sheet Acknowledged. A warning without a name is a limit that is not satisfied, a
-    formula of the sheet that was typed over, or a source other than that in suite.json. A note
-    needs no answer.
+    Errors must be corrected. To accept a warning, enter its name (in brackets) and a reason on the
+    Acknowledged worksheet. A warning without a name is a limit that is not satisfied, an
+    overwritten formula, or a source that differs from suite.json. Notes need no action.
     """
     from report.cli.project_check import check_project
 

@@ -20,7 +20,7 @@ def doctor() -> None:
 @click.command()
 @click.argument("shell", type=click.Choice(["bash", "zsh", "fish"]))
 def completion(shell: str) -> None:
-    """Print the script by which a shell completes commands, options and files.
+    """Print the shell completion script.
 
     In bash: `eval "$(roofslip completion bash)"`, which also completes ./roofslip. In zsh the same
     with zsh, after compinit. In fish: `roofslip completion fish | source`. zsh and fish complete a
@@ -33,12 +33,12 @@ def completion(shell: str) -> None:
 
 
 @click.command()
-@click.option("--quick", is_flag=True, help="The short ones, some of every test file.")
-@click.option("--nightly", is_flag=True, help="All, with the coverage of the program.")
-@click.option("--golden", is_flag=True, help="Accept what changed in the words of the pages.")
+@click.option("--quick", is_flag=True, help="Run the short tests, some of each test file.")
+@click.option("--nightly", is_flag=True, help="Run all tests, with the coverage of the program.")
+@click.option("--golden", is_flag=True, help="Accept changed texts of the pages.")
 @click.argument("paths", metavar="[PATH]...", nargs=-1)
 def test(**_: object) -> None:
-    """Run the tests of a checkout, after its linters: all of PATH, else what every day runs.
+    """Run the linters and tests of a checkout: all tests of PATH, or the everyday suite.
 
     What pytest takes may follow. The first call installs what tests need, 1.1 GB.
     """

@@ -72,15 +72,15 @@ def convert(file: Path, out: Path, **options: Any) -> None:
 @click.option("--at", "recorded_at", type=click.Choice(["roof", "ground"]),
               help="Where they were recorded; required with a workbook.")  # fmt: skip
 @click.option("--only", metavar="NAME", multiple=True,
-              help="Take the motions of this name; * stands for any letters.")  # fmt: skip
+              help="Add only motions with this name; * matches any characters.")  # fmt: skip
 @click.option("--without-vertical", is_flag=True,
-              help="Take two horizontal records without a vertical one as a set.")  # fmt: skip
+              help="Accept two horizontal records without a vertical one as a set.")  # fmt: skip
 @reading
 def rows(source: Path, project: Path | None, **options: Any) -> None:
     """List the motions in FOLDER or ZIP, sets of three records; add them to a workbook.
 
-    Sets that are not clear are listed with the reason and not added. Records are copied into
-    records/ beside the workbook, unless they are in its folder.
+    Ambiguous sets are listed with the reason and are not added. Records are copied into records/
+    next to the workbook, unless they are in its folder.
     """
     from report.cli.motion_rows import add_motions
 

@@ -14,8 +14,8 @@ from report.cli.options import SOURCE
 @click.option("--units", type=click.Choice(["US", "SI"], case_sensitive=False), default="US",
               show_default=True,
               help="Units of the input cells and primary units of the package.")  # fmt: skip
-@click.option("--example", is_flag=True, help="Fill it in, with motions, to try a report.")
-@click.option("--study", is_flag=True, help="Write the workbook of a study instead.")
+@click.option("--example", is_flag=True, help="Write a complete example with motions.")
+@click.option("--study", is_flag=True, help="Write a study workbook instead.")
 def new(folder: Path, units: str, example: bool, study: bool) -> None:
     """Write a blank DIR/input.xlsx and the folder DIR/records/ for the motions."""
     if example and study:

@@ -40,20 +40,20 @@ plan.add_section("Commands", f"{_HERE}:ballast", f"{_HERE}:clearances", f"{_HERE
               help="Unit of the drawing; required if it states none.")  # fmt: skip
 @click.option("--gap", type=(_POSITIVE, click.Choice(UNIT_CHOICES)), default=(20.0, "in"),
               metavar="NUMBER UNIT",
-              help="Largest gap between modules of one array; 20 in unless given.")  # fmt: skip
-@click.option("--replace", is_flag=True, help="Overwrite the places of rows that are filled.")
-@click.option("--accept", is_flag=True, help="Take what is proposed for layers that are not known.")
+              help="Largest gap between modules of one array; default: 20 in.")  # fmt: skip
+@click.option("--replace", is_flag=True, help="Overwrite existing locations.")
+@click.option("--accept", is_flag=True, help="Accept the proposed types of unknown layers.")
 @click.option("--layer", "layers", metavar="NAME=KIND", multiple=True,
               help="What is drawn on a layer; may be repeated.")  # fmt: skip
 @click.option("--rotate", "rotate_deg", metavar="DEGREES|north", default="0", callback=_degrees,
-              help="Turn the drawing counterclockwise, or its north to +y.")  # fmt: skip
+              help="Rotate the drawing counterclockwise, or its north to +y.")  # fmt: skip
 def read(drawing: Path, project: Path, **options: Any) -> None:
-    """Fill in arrays, objects, roof edges and outlines from the closed lines of a DXF.
+    """Import arrays, objects, roof edges and outlines from the closed lines of a DXF.
 
-    The sheet Layers says what each layer is; the layers of plan.dxf are known, and others are
-    proposed by their names. Names and heights are texts inside the outlines, or attributes of
-    blocks. Equal rectangles of the size of modules are joined into arrays. Everything else in the
-    workbook is kept. If it has no other errors, the clearances follow as by plan clearances.
+    The Layers worksheet lists the type of each layer; the layers of plan.dxf are known, and types
+    of others are proposed from their names. Names and heights are texts inside the outlines, or
+    attributes of blocks. Equal module-size rectangles are grouped into arrays. Everything else in
+    the workbook is kept. If it has no other errors, clearances are added as by plan clearances.
     """
     from report.cli.plan_from_drawing import read_plan
 
@@ -63,12 +63,12 @@ def read(drawing: Path, project: Path, **options: Any) -> None:
 @click.command()
 @click.argument("project", metavar="DIR|WORKBOOK", type=SOURCE)
 def clearances(project: Path) -> None:
-    """Add a row to the sheet Clearances for each pair of the plan that a package would require.
+    """Add a row to the Clearances worksheet for each pair on the plan that the package requires.
 
-    Arrays, objects and roof edges within reach of an array: twice the prescriptive displacement, or
-    the design displacement where the motions can be run and give more. Distances are those of the
-    plan, rounded down, and say so in the column Distance from: a condition of the package until
-    they are confirmed. Rows whose distance is from the drawing are renewed; all others are kept.
+    Searches arrays, objects and roof edges within twice the prescriptive displacement of an array,
+    or twice the design displacement if the motions can be run and it is larger. Distances are those
+    on the plan, rounded down, and are marked in the column Clearance source: an open condition
+    until they are confirmed. Rows with distances from the drawing are updated; all others are kept.
     """
     from report.cli.clearance_rows import fill_clearances
 
@@ -80,8 +80,8 @@ def clearances(project: Path) -> None:
 @click.argument("project", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--units", type=click.Choice(UNIT_CHOICES), required=True, help="Unit of x and y.")
 @click.option("--block-weight", type=(_POSITIVE, click.Choice(WEIGHT_CHOICES)), required=True,
-              metavar="NUMBER UNIT", help="Of one block, such as 32 lb.")  # fmt: skip
-@click.option("--replace", is_flag=True, help="Overwrite ballast weights that are given.")
+              metavar="NUMBER UNIT", help="Weight of one block, such as 32 lb.")  # fmt: skip
+@click.option("--replace", is_flag=True, help="Overwrite entered ballast weights.")
 def ballast(ballast_map: Path, project: Path, **options: Any) -> None:
     """Fill in the ballast weight of arrays from a CSV with the columns x, y, blocks.
 

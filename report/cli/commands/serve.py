@@ -21,21 +21,21 @@ _NEEDED = {"starlette": "starlette", "uvicorn": "uvicorn", "python_multipart": "
 
 @click.command()
 @click.option("--port", type=click.IntRange(0, 65535), default=PORT, show_default=True,
-              help="0: any that is free.")  # fmt: skip
-@click.option("--no-browser", is_flag=True, help="Open no browser.")
+              help="Port; 0 selects any free port.")  # fmt: skip
+@click.option("--no-browser", is_flag=True, help="Do not open a browser.")
 @click.option("--host", metavar="ADDRESS", help="Listen on this address of the machine, so that "
-              "other machines reach the page. Needs --token-file.")  # fmt: skip
+              "other machines can reach the page. Requires --token-file.")  # fmt: skip
 @click.option("--token-file", type=Existing(dir_okay=False),
-              help=f"File with the token of the address: {MIN_TOKEN} letters and digits or "
-              "more, which stays good. Without it, an address is good once.")  # fmt: skip
-@click.option("--once", is_flag=True, help="Load the page with the example as a browser does, "
-              "print what it took, and end.")  # fmt: skip
+              help=f"File with a reusable token of at least {MIN_TOKEN} letters and digits. "
+              "Without it, each address works once.")  # fmt: skip
+@click.option("--once", is_flag=True, help="Load the page with the example as a browser would, "
+              "print the result and the time, and exit.")  # fmt: skip
 def serve(host: str | None, token_file: Path | None, **options: Any) -> None:
-    """Show the page in the browser: drop a workbook, move the sliders, take the package.
+    """Open the browser page: load a workbook, move sliders, create the package.
 
-    Prints the address with its token, and serves one engineer until Ctrl+C; then what was uploaded
-    and made is removed. On a terminal, Enter prints another address, for another tab. Without
-    --host, only this machine can reach the page. A reverse proxy must ask for it under the host and
+    Prints the address with its token, and serves one engineer until Ctrl+C; uploaded and generated
+    files are then removed. On a terminal, Enter prints another address, for another tab. Without
+    --host, only this machine can reach the page. A reverse proxy must request it under the host and
     port of the printed address.
     """
     missing = [name for module, name in _NEEDED.items() if find_spec(module) is None]

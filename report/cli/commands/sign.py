@@ -17,10 +17,10 @@ _FILE = Existing(dir_okay=False)
 @click.option("--p12", type=_FILE, is_eager=True, required=True, metavar="CERT.p12",
               help="PKCS#12 file with the private key and the certificate.")  # fmt: skip
 @click.option("--password", envvar="ROOFSLIP_P12_PASSWORD",
-              help="Of CERT.p12; without it, from ROOFSLIP_P12_PASSWORD or asked for.")  # fmt: skip
+              help="Password of CERT.p12; default: ROOFSLIP_P12_PASSWORD or a prompt.")  # fmt: skip
 @click.option("--time-stamp", default="", metavar="URL",
-              help="Of a time-stamp authority (RFC 3161): PAdES B-T instead of B-B.")  # fmt: skip
-@click.option("--out", type=SOURCE, help="File to write; default: FILE-signed.pdf beside it.")
+              help="URL of a time-stamp authority (RFC 3161); PAdES B-T, not B-B.")  # fmt: skip
+@click.option("--out", type=SOURCE, help="File to write; default: FILE-signed.pdf next to it.")
 def sign(file: Path, **options: Any) -> None:
     """Sign a package in the field over its seal box (PAdES baseline).
 

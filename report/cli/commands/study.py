@@ -12,21 +12,21 @@ from report.cli.options import QUIET, SOURCE
 
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
-@click.option("--out", type=SOURCE, help="Output folder; default: out/study/ beside the input.")
-@click.option("--dry-run", is_flag=True, help="Print runs, parts and disk; run nothing.")
+@click.option("--out", type=SOURCE, help="Output folder; default: out/study/ next to the input.")
+@click.option("--dry-run", is_flag=True, help="Print runs, batches and disk space; run nothing.")
 @click.option("--scheduler", metavar="tcp://HOST:PORT", default="",
               help="Run on an existing Dask cluster instead of this machine.")  # fmt: skip
 @click.option("--allow-matched", is_flag=True,
               help="Export fragilities of motions matched to one spectrum, with a warning in"
               " fragility.csv.")  # fmt: skip
 @click.option("--trust-parts", is_flag=True,
-              help="Take over parts that are not signed with your key, of another user or machine;"
-              " the results say how many.")  # fmt: skip
+              help="Also reuse batches not signed with your key (from another user or machine);"
+              " the results state how many.")  # fmt: skip
 @QUIET
 def study(source: Path, out: Path | None, **options: Any) -> None:
     """Run a study workbook: write study.pdf, curves.csv, study.xlsx, fragilities and every run.
 
-    A study that was killed goes on where it was. `roofslip new DIR --study` writes a blank
+    An interrupted study resumes where it stopped. `roofslip new DIR --study` writes a blank
     workbook.
     """
     from report.cli.input_errors import input_errors

@@ -28,9 +28,9 @@ from report.cli.options import SOURCE, Number, reading
               help="The same seed gives the same files.")  # fmt: skip
 @click.option("--records", metavar="FILES", multiple=True, help="Use records as seeds, not "
               "noise: one motion per file, or per files joined by commas. After DIR.")  # fmt: skip
-@click.option("--into", metavar="DIR|WORKBOOK", type=SOURCE, help="Add the motions to the sheet "
-              "Motions; DIR must be in its folder. Without any of --sds, --zh, --code, --tail and "
-              "--target, the target is that of its site.")  # fmt: skip
+@click.option("--into", metavar="DIR|WORKBOOK", type=SOURCE, help="Add the motions to the Motions "
+              "worksheet; DIR must be in its folder. Without any of --sds, --zh, --code, --tail "
+              "and --target, the target is that of its site.")  # fmt: skip
 @reading
 def suite(folder: Path, more: tuple[str, ...], records: tuple[str, ...], **options: Any) -> None:
     """Generate spectrum-compatible motions in DIR: x, y and z records, suite.json, suite.png.

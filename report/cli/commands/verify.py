@@ -11,7 +11,9 @@ from report.cli.options import SOURCE, Existing
 
 @click.command()
 @click.option("--out", type=SOURCE, help="Folder for the outputs; default: out.")
-@click.option("--quick", is_flag=True, help="Run fewer records, cases and settings.")
+@click.option(
+    "--quick", is_flag=True, help="Run a shorter verification (fewer records, cases and settings)."
+)
 @click.option("--records", type=Existing(file_okay=False), help="Folder of recorded motions. Files "
               "with three components are run with every model; roof_575_market (ground and floor "
               "records of 575 Market Street) is compared with the building model.")  # fmt: skip

@@ -13,19 +13,19 @@ from report.cli.options import AS_JSON, QUIET, SOURCE
 @click.command("verify-package")
 @click.argument("file", metavar="FILE.pdf", type=SOURCE)
 @click.option("--records", type=SOURCE, metavar="FOLDER",
-              help="Of the workbook, where the package only lists its records.")  # fmt: skip
+              help="Folder of the workbook, if the package only lists its records.")  # fmt: skip
 @click.option("--out", type=SOURCE,
-              help="Where the package made again is written if drawings were not compared; "
-              "default: FILE-again.pdf beside it.")  # fmt: skip
+              help="Where the regenerated package is written if drawings were not compared; "
+              "default: FILE-again.pdf next to it.")  # fmt: skip
 @QUIET
 @AS_JSON
 def verify_package(file: Path, **options: Any) -> None:
-    """Make a package again from the input inside it, and compare the bytes.
+    """Regenerate a package from its embedded input, and compare the two byte for byte.
 
-    Exit codes: 0 the same; 4 not compared in full, as where another processor, system or version
-    made it: numbers and words agree, drawings were not compared, and the package made again is
-    written; 1 it differs, and where first; 2 it cannot be made again with what is given. Signatures
-    that were put on after the package was written are no difference.
+    Exit codes: 0: the same. 4: not compared in full, for example because another processor, system
+    or version created it; numbers and text agree, drawings were not compared, and the regenerated
+    package is written. 1: different (prints the first difference). 2: cannot be regenerated from
+    what is available. Signatures added later are not a difference.
     """
     from report.cli.package_proof import prove
 

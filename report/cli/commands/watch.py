@@ -11,7 +11,7 @@ from report.cli.options import SOURCE
 
 @click.command()
 @click.argument("source", metavar="DIR|WORKBOOK", type=SOURCE)
-@click.option("--out", type=SOURCE, help="Output folder; default: out/ beside the input.")
+@click.option("--out", type=SOURCE, help="Output folder; default: out/ next to the input.")
 def watch(source: Path, out: Path | None) -> None:
     """Check and report on every save of the workbook or a record, until Ctrl+C.
 

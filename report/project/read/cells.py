@@ -176,8 +176,8 @@ def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
         span = entry.bounds.words(si)
         if span:
             is_closed = math.isfinite(entry.bounds.low) and math.isfinite(entry.bounds.high)
-            start = "from" if is_closed and not entry.bounds.excludes_low else "of"
-            span = f" {start} {span}"
+            start = "from " if is_closed else "of "
+            span = f" {span}" if entry.bounds.excludes_low else f" {start}{span}"
         return f"give {noun}{span}" + (f" [{unit}]" if unit else "") + entry.or_zero
     if entry.kind is date:
         return "give a date such as 2026-03-05"

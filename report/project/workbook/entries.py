@@ -35,16 +35,18 @@ class Bounds:
         return is_above and (value < self.high if self.excludes_high else value <= self.high)
 
     def words(self, si_per_unit: float = 1.0) -> str:
-        """Return the range in words, in a unit: `0 to 1.5`, `more than 0`; empty for any."""
+        """Return the range in words, in a unit: `0 to 1.5`, `greater than 0`; empty for any."""
         low, high = (f"{bound / si_per_unit:.6g}" for bound in (self.low, self.high))
         if math.isinf(self.low) and math.isinf(self.high):
             return ""
         if math.isinf(self.low):
             return f"{'less than' if self.excludes_high else 'at most'} {high}"
         if math.isinf(self.high):
-            return f"more than {low}" if self.excludes_low else f"{low} or more"
-        above = f"more than {low}" if self.excludes_low else low
-        return f"{above} to {'less than ' if self.excludes_high else ''}{high}"
+            return f"greater than {low}" if self.excludes_low else f"{low} or more"
+        below = f"less than {high}" if self.excludes_high else high
+        if self.excludes_low:
+            return f"greater than {low}, {below if self.excludes_high else f'at most {high}'}"
+        return f"{low} to {below}"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

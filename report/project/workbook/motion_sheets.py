@@ -15,25 +15,25 @@ def _unit_of_scaling(scaling: str) -> str:
 
 
 MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for each motion;"
-    " without any, no analysis is made. Records are files beside this workbook (file, or file |"
-    " channel) or columns pasted into a sheet (Sheet!Header). Columns to the right of Source are"
-    " optional.",
+    " without any, no analysis is run. Records are files next to this workbook (file, or file |"
+    " channel) or columns pasted into a worksheet (Sheet!Header). Columns to the right of Source"
+    " are optional.",
     Entry("ID", "id", "M1", note="Short and unique, such as M1."),
-    Entry("Horizontal record", "record", "records/m1-x.csv", note="A file beside this workbook, or"
+    Entry("Horizontal record", "record", "records/m1-x.csv", note="A file next to this workbook, or"
           " Sheet!Header of a pasted column. If the file has several channels: file | channel, by"
           " name or number."),
     Entry("Transverse record", "transverse", "records/m1-y.csv", note="Second horizontal component;"
           " blank for none. Each component is run along the slope, and the larger displacement is"
           " used."),
     Entry("Vertical record", "vertical", "records/m1-z.csv",
-          note="Given like the horizontal record, positive upward; blank for none."),
+          note="Entered like the horizontal record, positive upward; blank for none."),
     Entry("Record units", "units", "from file",
           note="Units of all components, if the files do not state them."),
     Entry("Time step", "dt_s", 0.01, "s", usual=(0.001, 0.02),
           note="Leave blank if the file states it or has a time column."),
     Entry("Scaling", "scaling", "as recorded", note="By a factor, to a PPA (peak of the horizontal"
-          " record), or to the target spectrum over the scaling periods on the sheet Building. All"
-          " components get the same factor."),
+          " record), or to the target spectrum over the scaling periods on the Building worksheet."
+          " All components get the same factor."),
     Entry("Factor or PPA", "scale_value", 1.0, usual=(0.2, 5.0),
           unit_from=("scaling", _unit_of_scaling),
           note="The factor, or the PPA in g; blank for other types of scaling."),
@@ -42,7 +42,8 @@ MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for 
     Entry("Source", "source", "Spectrum-compatible, seed 1",
           note="Event, station and processing, printed in the package."),
     Entry("Recorded at", "recorded_at", "roof",
-          note="Ground motions are carried to the roof by the building on the sheet Building."),
+          note="Ground motions are transferred to the roof with the building model on the Building"
+          " worksheet."),
     Entry("Start time", "from_s", 2.0, "s", is_rare=True, former="Keep from",
           note="Measured from the first sample; blank: first sample."),
     Entry("End time", "to_s", 40.0, "s", is_rare=True, former="Keep to",
@@ -69,30 +70,31 @@ MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for 
     Entry("V_s30", "v_s30_mps", 312.0, "m/s", usual=(150.0, 1500.0), is_rare=True,
           note="Mean shear-wave velocity of the upper 30 m at the station."),
     Entry("Permanent displacement by", "drift_by", "RG, SE", is_rare=True,
-          note="Only if a component ends away from where it began and the ground or the roof did"
-          " so: who states it. With its source."),
+          note="Only if the ground or the roof was permanently displaced: who states it. Required"
+          " with the source."),
     Entry("Permanent displacement source", "drift_source", "GNSS at the station", is_rare=True,
-          note="What shows that the displacement is real. Without both, a record that ends more"
-          " than 0.5 m away is not accepted for the analysis."),
+          note="Evidence that the displacement is real. Without both entries, a record that ends"
+          " more than 0.5 m away is not accepted for the analysis."),
 )  # fmt: skip
 
 BUILDING = block("building", "Building", "Building between ground and roof", BuildingInput,
-    "Required only for ground motions: give period T1 or a structure type.",
-    Entry("Structure type", "structure", "other", note="Gives the approximate period C_t h^x of"
-          " ASCE 7, 12.8.2.1, with h from the sheet Site. Leave blank if period T1 is given."),
+    "Required only for ground motions: enter period T1 or a structure type.",
+    Entry("Structure type", "structure", "other", note="Determines the approximate period"
+          " C_t h^x of ASCE 7, 12.8.2.1, with h from the Site worksheet. Leave blank if period T1"
+          " is entered."),
     Entry("Period T1", "period_s", 0.62, "s", usual=(0.05, 3.0), note="First mode, from analysis or"
           " measurement. More accurate than C_t h^x, which is intended to be a low estimate."),
     Entry("Period T2", "period_2_s", 0.2, "s", usual=(0.02, 1.0),
-          note="Second mode, if known. Blank: that of a uniform beam."),
+          note="Second mode, if known. If blank, that of a uniform beam."),
     Entry("Period T1, transverse", "transverse_s", 0.55, "s", usual=(0.05, 3.0),
-          note="First mode in the direction of the transverse record. Blank: equal to T1."),
+          note="First mode in the direction of the transverse record. If blank, equal to T1."),
     Entry("Damping", "damping_percent", 5.0, "%", usual=(1.0, 10.0),
           note="Damping of all modes, in percent of critical."),
     Entry("Lateral stiffness ratio", "stiffness_ratio", 4.0, note="H sqrt(GA/EI): 0 for shear"
-          " walls, 1.5 to 6 for walls with frames, over 20 for moment frames. Blank: shear"
-          " deformation only."),
+          " walls, 1.5 to 6 for walls with frames, over 20 for moment frames. If blank,"
+          " shear deformation only."),
     Entry("Modal truncation limit", "left_out_percent", 5.0, "%", former="Modes may leave out",
-          note="Allowed effect of all neglected modes together, in percent of the peak roof"
+          note="Largest combined contribution of the omitted modes, in percent of the peak roof"
           " acceleration."),
     may_be_absent=True,
 )  # fmt: skip
@@ -108,8 +110,8 @@ SPECTRUM = table("spectrum", "Spectrum", "Project-specific target spectrum", Spe
     may_be_absent=True,
 )  # fmt: skip
 
-LINKS = table("links", "Links", "Rows of linked blocks", Links, "Optional: one row for each array"
-    " for which the package checks whether one rigid block is adequate. The blocks have equal"
+LINKS = table("links", "Links", "Rows of linked blocks", Links, "Optional. One row for each array"
+    " to be compared with a row of linked blocks. The blocks have equal"
     " weights and lie in a row along the slope.",
     Entry("Array", "array", "A1", note="ID of the array. One row for each."),
     Entry("Block friction", "friction", "0.40, 0.45, 0.50", former="Friction of blocks",
@@ -118,7 +120,7 @@ LINKS = table("links", "Links", "Rows of linked blocks", Links, "Optional: one r
     Entry("Link stiffness", "stiffness_n_per_m", 5000.0, Quantity.STIFFNESS,
           note="Axial force per unit elongation or shortening of a link."),
     Entry("Link damping", "damping_ratio", 0.02,
-          note="Damping ratio of one block on one link. Blank: none."),
+          note="Damping ratio of one block on one link. If blank, none."),
     may_be_absent=True,
 )  # fmt: skip
 

@@ -316,7 +316,7 @@ def _allowed(entry: Entry, unit: Unit | None) -> str:
             return words
         usual = (entry.expected.low, entry.expected.high)
         low, high = (float(f"{bound / si:.3g}") for bound in usual)
-        return f"{words}; usually {low:g} to {high:g}"
+        return f"{words}; typical {low:g} to {high:g}"
     return "a date" if entry.kind is date else "text"
 
 

@@ -88,7 +88,7 @@ def _text(item: Overwritten, count: int) -> str:
         return f"{title} refers to a column that is missing; write its heading again, or {FRESH}"
     if item.content.is_blank:
         return f"{title} is blank, and its formula is gone; {FRESH}"
-    return f"{title} is {cut(plain(item.content.value))}, typed over its formula; {FRESH}"
+    return f"the formula of {title} was overwritten with {cut(plain(item.content.value))}; {FRESH}"
 
 
 def _title(book: OpenBook, position: CellPosition) -> str:

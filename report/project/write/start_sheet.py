@@ -37,22 +37,24 @@ def write_panel(sheet: Worksheet, top: int, tables: Tables, *, is_us: bool) -> i
     unit = Quantity.DISPLACEMENT.value[0 if is_us else 1]
     lengths = f'{answers.decimals_format(unit)}" {unit.symbol}"'
     row = top + 3
-    note = "As given; where blank, the least category by S_DS, S_D1 and S_1."
-    _write_line(sheet, row, ("Category used", answers.CATEGORY_USED, note), "General")
+    note = "As entered; if blank, the lowest category permitted by S_DS, S_D1 and S_1."
+    _write_line(sheet, row, ("SDC used", answers.CATEGORY_USED, note), "General")
     name_cell("live_sdc_used", sheet, row, 3)
-    note = "The formula, or the minimum of the rule set."
+    note = "The equation or the minimum of the rule set, whichever is larger."
     prescriptive = ("Prescriptive displacement", answers.prescriptive(unit), note)
     _write_line(sheet, row + 1, prescriptive, lengths)
     name_cell("live_prescriptive", sheet, row + 1, 3)
     worst = answers.written(answers.WORST, tables, "clearances", row + 1)
     style.put_answer(sheet.cell(row + 1, 7), worst, "0.00")
-    note = "Least design displacement by analysis without peer review."
-    _write_line(sheet, row + 2, ("Floor of the value from analysis", answers.FLOOR, note), lengths)
+    note = "Smallest design displacement permitted by analysis without peer review."
+    _write_line(
+        sheet, row + 2, ("Floor of the analysis displacement", answers.FLOOR, note), lengths
+    )
     for neighbor, label in _SEPARATIONS.items():
         number = answers.SEPARATION_ROWS[neighbor]
         at = row + 2 + number
         factor = "I_e of the building" if neighbor.is_edge else "the largest I_p"
-        note = f"With PV1-2012 times {factor}."
+        note = f"PV1-2012: multiplied by {factor}."
         _write_line(sheet, at, (label, answers.separation(unit, at), note), lengths)
         style.put(sheet, at, 4, "", color=style.GRAY).value = number
     return row + 3 + len(_SEPARATIONS) + 1
@@ -71,7 +73,7 @@ START = "Start"
 LINKS_COLUMN, COLORS_COLUMN = 7, 8
 _WIDTHS = (5, 42, 14, 14, 16, 22, 14, 20, 42)
 _PICTURE_PX = (730, 296)  # which ends before the links
-_HINT = "From this workbook to the calculation package. This sheet has no input cells."
+_HINT = "How to get a calculation package from this workbook. No input cells on this worksheet."
 
 # Sheets that are rarely needed: of nothing but tables that may be absent.
 RARE = {section.sheet for section in SECTIONS} - {
@@ -79,41 +81,41 @@ RARE = {section.sheet for section in SECTIONS} - {
 }
 
 STEPS = (
-    "Fill in the yellow cells, sheet by sheet. Select a cell to see its instructions.",
-    "Put the acceleration records in the folder “records” beside this workbook, or paste them as"
-    " columns into a new sheet.",
-    "Look at the blue cells, which compute: here, on the sheets Site, Arrays and Clearances.",
+    "Fill in the yellow cells, one worksheet at a time. Select a cell to see its instructions.",
+    "Put the acceleration records in the folder “records” next to this workbook, or paste them as"
+    " columns into a new worksheet.",
+    "Review the blue cells (formulas) here and on the Site, Arrays and Clearances worksheets.",
     "Save the workbook as .xlsx and close it.",
-    "Run roofslip check FOLDER, which finds what is missing or wrong, as does the page of roofslip"
-    " serve. FOLDER contains this workbook, named input.xlsx.",
+    "Run roofslip check FOLDER to list missing and incorrect entries. The browser page (roofslip"
+    " serve) lists them too. FOLDER contains this workbook, named input.xlsx.",
     "Run roofslip report FOLDER. It writes the calculation package to FOLDER/out.",
 )
 _NOTES = (
-    "Without rows on the sheet Motions, no analysis is made: the package takes the prescriptive"
-    " displacement for every array, and says what an analysis could save.",
+    "If the Motions worksheet is empty, no analysis is run. The package uses the prescriptive"
+    " displacement for every array and states how much an analysis could reduce it.",
     "Units are in brackets in the table headings and elsewhere in the column Unit. You may change"
     f" them: lengths to {', '.join(LENGTHS)}; weights to {', '.join(WEIGHTS)}; stiffnesses to"
     f" {', '.join(STIFFNESSES)}; velocities to {', '.join(VELOCITIES)}.",
-    "Tables grow: type in the row below the last one. You may rename sheets, insert rows, and add"
-    " columns to the right of a table. Columns that are rarely needed are folded at the right: the"
-    " + above the headings opens them.",
-    "Sheets that are rarely needed are hidden while they are empty: right-click a tab and choose"
-    " Unhide, in LibreOffice Show Sheet. So is Tables, which has what the formulas look up.",
-    "A roof that is drawn is read by roofslip plan read ROOF.DXF FOLDER; the sheet Layers says what"
-    " is drawn on each layer of the drawing.",
-    "The blue cells compute prescriptive values only; the package alone has the displacement from"
-    " analysis. They are not read as input. If one is typed over, roofslip check lists it. Formulas"
-    " in yellow cells are accepted. Macros are not: .xlsm files are rejected.",
+    "To add a row, type in the row below the last one. You may rename worksheets, insert rows, and"
+    " add columns to the right of a table. Seldom-used columns are grouped at the right; click +"
+    " above the headings to show them.",
+    "Seldom-used worksheets are hidden while they are empty: right-click a tab and choose Unhide"
+    " (in LibreOffice, Show Sheet). So is Tables, with the lookup tables of the formulas.",
+    "To import the roof plan from a DXF drawing, run roofslip plan read ROOF.DXF FOLDER. The Layers"
+    " worksheet lists what is drawn on each layer.",
+    "Blue cells show prescriptive values only; the analysis displacement appears only in the"
+    " package. They are not read as input. If you overwrite one, roofslip check reports it."
+    " Formulas in yellow cells are accepted. Macros are not: .xlsm files are rejected.",
 )
 _SAMPLES = (
-    ("", "000000", style.INPUT_FILL, "Input cell. It loses its color once it is filled."),
+    ("", "000000", style.INPUT_FILL, "Input cell; turns white when filled in."),
     ("heading, tab", style.WHITE, style.REQUIRED_FILL,
-     "Required column or sheet; also cells with *."),
-    ("heading, tab", style.WHITE, style.OPTIONAL_FILL, "Optional column or sheet."),
-    ("tab", style.INK, style.RARE_FILL, "Sheet that is rarely needed, hidden while empty."),
-    ("tab", style.WHITE, style.HELP_FILL, "Sheet without input cells."),
+     "Required column or worksheet; also cells with *."),
+    ("heading, tab", style.WHITE, style.OPTIONAL_FILL, "Optional column or worksheet."),
+    ("tab", style.INK, style.RARE_FILL, "Seldom-used worksheet, hidden while empty."),
+    ("tab", style.WHITE, style.HELP_FILL, "Worksheet without input cells."),
     ("heading", style.INK, style.ANSWER_HEAD_FILL,
-     "Of computed cells: formulas, not read as input."),
+     "Computed cells: formulas, not read as input."),
     ("example", style.GRAY, style.HINT_FILL, "Allowed range and example; not read as input."),
 )  # fmt: skip
 
@@ -125,7 +127,7 @@ def write_start(book: Workbook, tables: Tables, *, is_us: bool) -> None:
         sheet.column_dimensions[get_column_letter(column)].width = width
     style.put_title(sheet, "Roofslip input workbook", _HINT)
     picture = _write_steps(sheet, write_panel(sheet, 4, tables, is_us=is_us))
-    links = _write_links(book, _put_heading(sheet, picture, "Sheets", LINKS_COLUMN))
+    links = _write_links(book, _put_heading(sheet, picture, "Worksheets", LINKS_COLUMN))
     colors = _write_colors(sheet, picture)
     row = _put_heading(sheet, max(_put_picture(sheet, picture), links, colors), "Notes")
     for at, note in enumerate(_NOTES, start=row):
@@ -141,7 +143,7 @@ def _write_links(book: Workbook, row: int) -> int:
         # By a defined name, which follows a sheet that is renamed.
         name = f"top_{title.lower().replace(' ', '_')}"
         name_cell(name, book[title], 1, 1)
-        said = f"{title}, rarely needed" if title in RARE else title
+        said = f"{title} (seldom used)" if title in RARE else title
         cell = style.put(book[START], at, LINKS_COLUMN, said, wrap=False)
         cell.hyperlink = Hyperlink(ref=cell.coordinate, location=name)
         cell.font = Font(name="Calibri", size=10, color=style.INK, underline="single")

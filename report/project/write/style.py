@@ -219,7 +219,8 @@ def _add(
     # As many characters as Excel allows.
     rule.promptTitle = rule.errorTitle = title[:32]
     rule.prompt = message[:255]
-    error = f"{title}: {wanted}. Retry corrects the entry, Cancel restores the former one."
+    choice = "Click Retry to correct the entry, or Cancel to restore the previous one."
+    error = f"{title}: {wanted}. {choice}"
     rule.error = error if len(error) <= 225 else f"{error[:224]}…"
     rule.add(cells)
     sheet.add_data_validation(rule)

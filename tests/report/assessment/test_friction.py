@@ -29,8 +29,8 @@ def law(slow, fast, rate, static=None):
     ("friction", "words"),
     [
         (coulomb(0.475), "0.475"),
-        (law(0.5, 0.425, 20.0), "0.50 to 0.425, velocity-dependent"),
-        (law(0.4, 0.5, 20.0, 0.45), "0.40 to 0.50, velocity-dependent, 0.45 at rest"),
+        (law(0.5, 0.425, 20.0), "0.50 to 0.425 with velocity"),
+        (law(0.4, 0.5, 20.0, 0.45), "0.40 to 0.50 with velocity, 0.45 at rest"),
         (law(0.4, 0.4, 0.0, 0.45), "0.40, 0.45 at rest"),
     ],
 )
@@ -43,8 +43,8 @@ def test_friction_is_said_as_it_was_run(friction, words):
 def test_arrays_of_one_friction_and_the_low_velocity_coefficient_are_said():
     alike = [projects.array("A1", 0.5), projects.array("A2", 2.0)]
     data = projects.project(arrays=[*alike, projects.array("A3", 3.0, **LAW)])
-    assert mus_words(data.arrays) == "A1, A2: 0.45; A3: 0.40 to 0.50, velocity-dependent"
-    assert mus_words(data.arrays[2:]) == "A3: 0.40 to 0.50, velocity-dependent"
+    assert mus_words(data.arrays) == "A1, A2: 0.45; A3: 0.40 to 0.50 with velocity"
+    assert mus_words(data.arrays[2:]) == "A3: 0.40 to 0.50 with velocity"
     given = projects.project(arrays=[projects.array("A1", 3.0, mu_static=0.48, **LAW)]).arrays[0]
     assert at_low_velocity(given).friction == coulomb(0.40)
     assert at_low_velocity(given).slope_rad == given.slope_rad

@@ -39,7 +39,7 @@ from report.project.model.choices import ClearanceSource, Direction, ObjectKind,
 from report.project.read.read import read
 from solver.rules.provisions import RULE_SETS
 
-HEADING = "Clearances/heading/Distance from"
+HEADING = "Clearances/heading/Clearance source"
 PLACED = [row for row in SECTIONS["objects"] if row["id"] != "OLD"]
 BARE = {"clearances": [], "objects": PLACED}
 
@@ -171,7 +171,7 @@ def test_motions_run_where_they_can_and_else_the_reason_is_given(tmp_path):
     path = make(tmp_path, **BARE)
     (tmp_path / "records" / "x2.csv").unlink()
     output = fill(tmp_path)
-    assert cell_address("the motions are not run: <Motions/M2/Horizontal record>: ") in output
+    assert cell_address("the motions cannot be run: <Motions/M2/Horizontal record>: ") in output
     assert "reach 163.2 in (4144 mm), twice the prescriptive displacement\n" in output
     assert len(read(path).inputs["clearances"]) == 2
 
@@ -204,7 +204,7 @@ def test_rows_from_the_drawing_are_renewed_and_typed_ones_stay(tmp_path):
     assert before["A1", "A2"].provided_m == pytest.approx(120 * INCH)
     typed = {(row.array, row.object): k for k, row in enumerate(sheet.project.clearances, start=1)}
     row = typed["A2", "RTU-1"]
-    type_into(path, {"Arrays/A2/x from": 113, f"Clearances/{row}/Distance from": "measured",
+    type_into(path, {"Arrays/A2/x from": 113, f"Clearances/{row}/Clearance source": "measured",
                      f"Clearances/{row}/Provided clearance": 55})  # fmt: skip
     output = fill(tmp_path)
     after = {(row.array, row.object): row for row in read(path).project.clearances}
@@ -221,7 +221,7 @@ def test_the_direction_is_that_of_the_plan_and_only_the_sheet_clearances_changes
     path = make(tmp_path, **BARE)
     rows = {"Clearances/1/Array": "A2", "Clearances/1/Object": "A1",
             "Clearances/1/Direction": "any", "Clearances/1/Provided clearance": 1,
-            "Clearances/1/Distance from": "drawing"}  # fmt: skip
+            "Clearances/1/Clearance source": "drawing"}  # fmt: skip
     type_into(path, rows)
     fill(tmp_path)
     first = read(path).project.clearances[0]

@@ -208,8 +208,8 @@ def test_cells_of_a_drift_and_of_several_values_are_printed(tmp_path):
     line = next(
         line for line in stdout_of("check", path).splitlines() if "date and printout" in line
     )
-    date = workbooks.cell_address("Site/Date of hazard")
-    cells = f"{date}, {workbooks.cell_address('Site/Hazard printout')}"
+    date = workbooks.cell_address("Site/Date of seismic parameters")
+    cells = f"{date}, {workbooks.cell_address('Site/Printout of seismic parameters')}"
     assert line.startswith(f"warning: {cells}: Condition. Source, date and printout of the seismic")
 
 

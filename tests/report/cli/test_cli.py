@@ -240,7 +240,7 @@ def test_the_command_is_called_as_the_reader_typed_it(tmp_path, monkeypatch, typ
     assert as_typed("of Roofslip, roofslip.pdf") == "of Roofslip, roofslip.pdf"
     book = load_workbook(tmp_path / "input.xlsx", read_only=True)
     start = "\n".join(str(cell) for row in book["Start"].values for cell in row)
-    assert f"Run {typed} check FOLDER, which" in start
+    assert f"Run {typed} check FOLDER to list" in start
 
 
 @pytest.mark.nightly

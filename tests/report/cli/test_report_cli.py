@@ -148,7 +148,7 @@ def test_a_project_with_an_error_names_the_files_of_its_earlier_run(tmp_path):
     assert told[-1].startswith(f"{tmp_path / 'out' / 'plan.dxf'} is of an earlier run, 2")
 
 
-PLACES = "<Site/Hazard covered>, <Options/Review covered>"
+PLACES = "<Site/Seismic parameters covered>, <Options/Review covered>"
 
 
 def confirmed(folder: Path, **changes) -> Path:
@@ -229,7 +229,7 @@ def test_a_workbook_that_is_not_to_be_written_stays_as_it_is(tmp_path, monkeypat
     stdout_of("verify-package", tmp_path / "out" / "calc-package.pdf")
     beside.unlink()
 
-    for label in ("Site/Hazard covered", "Options/Review covered"):
+    for label in ("Site/Seismic parameters covered", "Options/Review covered"):
         sheet, cell = address(before, label).split("!")
         type_into(path, {f"{sheet}!A{cell[1:]}": None})
 

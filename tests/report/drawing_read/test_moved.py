@@ -216,11 +216,11 @@ def first_day(tmp_path):
     stdout_of("plan", "read", saved(tmp_path, FEET), path)
     return type_into(path, {
         "Objects/EDGE-2/Kind": "edge with parapet", "Objects/EDGE-2/Height": 36,
-        "Objects/RTU-2/Place from": None,
+        "Objects/RTU-2/Location source": None,
         "Arrays/A1/Downslope direction": 270, "Arrays/A1/Weight": 42000,
         "Arrays/A2/Weight": 41000,
         "Clearances/1/Array": "A1", "Clearances/1/Object": "A2",
-        "Clearances/1/Provided clearance": 240, "Clearances/1/Distance from": "measured",
+        "Clearances/1/Provided clearance": 240, "Clearances/1/Clearance source": "measured",
     })  # fmt: skip
 
 
@@ -250,7 +250,7 @@ def test_what_was_typed_turns_with_the_sheet_and_what_is_lost_is_named(tmp_path)
     )
     (line,) = (text for text in output.splitlines() if text.startswith("taken out with A2: "))
     assert "weight 41000 lb" in line
-    assert "array A1, object A2, provided clearance 240 in, distance from measured" in line
+    assert "array A1, object A2, provided clearance 240 in, clearance source measured" in line
     inputs = read(path).inputs
     assert inputs["arrays"][0]["downslope_deg"] == 0.0
     edge = next(row for row in inputs["objects"] if row["id"] == "EDGE-2")

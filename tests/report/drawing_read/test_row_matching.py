@@ -123,7 +123,7 @@ def test_what_the_drawing_no_longer_has_is_taken_out_with_its_clearances(tmp_pat
 @pytest.mark.nightly
 def test_what_is_typed_stays_and_is_named(tmp_path):
     path = filled(tmp_path, [((20, 60), "A1"), ((20, 10), "A2")])
-    type_into(path, {"Arrays/A2/Place from": None})
+    type_into(path, {"Arrays/A2/Location source": None})
     output = revised(tmp_path, path, [((20, 60), "A1")])
     assert slopes(path)[20, 10] == ("A2", 2.0)
     assert "not in the drawing; stays as typed" in output
@@ -290,7 +290,7 @@ PROJECT = {"Project name": "Harbor Warehouse", "Project number": "26-041", "Prep
            "Date": dt.date(2026, 11, 26), "Revision": "0"}  # fmt: skip
 SITE = {"Rule set": "ASCE 7-16", "Risk category": "II", "Importance factor I_e": 1.0, "S_S": 1.5,
         "S_1": 0.6, "Site class": "D", "F_a": 1.2, "F_v": 1.7, "Seismic design category": "D",
-        "Number of stories": 1, "Structure height h": 30, "Height of the array z": 30}  # fmt: skip
+        "Number of stories": 1, "Structure height h": 30, "Roof height z": 30}  # fmt: skip
 ARRAY = {"Slope": 1.0, "Slope unit": "degrees", "Friction coefficient": 0.45,
          "Construction": "Tray 10 deg, landscape", "Module weight": 56, "Ballast weight": 6200,
          "CG height": 9, "Support spacing": 40, "Downslope direction": 270}  # fmt: skip

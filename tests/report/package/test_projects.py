@@ -150,9 +150,15 @@ def test_each_document_of_the_example_says_that_it_is_one_and_has_the_values_of_
         document.label: PdfReader(folder / document.path).pages[0].extract_text()
         for document in given.sheet.documents
     }
-    assert set(texts) == {"Hazard printout", "Letter of acceptance", "Test report file"}
+    assert set(texts) == {
+        "Printout of seismic parameters",
+        "Letter of acceptance",
+        "Test report file",
+    }
     assert all(text.startswith("EXAMPLE, IN PLACE OF ") for text in texts.values())
-    found = re.findall(r"^([SF]_\w+) +([\d.]+)", texts["Hazard printout"], re.MULTILINE)
+    found = re.findall(
+        r"^([SF]_\w+) +([\d.]+)", texts["Printout of seismic parameters"], re.MULTILINE
+    )
     values = {"S_S": site.s_s_g, "S_1": site.s_1_g, "F_a": site.f_a, "F_v": site.f_v,
               "S_MS": site.parameters.s_ms, "S_M1": site.parameters.s_m1, "S_DS": site.s_ds,
               "S_D1": site.s_d1}  # fmt: skip

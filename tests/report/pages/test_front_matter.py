@@ -71,7 +71,7 @@ def test_the_letter_is_one_page(n_arrays):
     near, *_ = near.partition("</body>")
     pdf = lay_out(f"{near}</body></html>")
     texts = [page.extract_text() for page in PdfReader(io.BytesIO(pdf)).pages]
-    assert "Letter of results" in texts[0]
+    assert "Results letter" in texts[0]
     assert "License expires" in texts[0]
     assert "2 Comparison with" not in texts[0]
     assert "2 Comparison with" in texts[1]

@@ -222,7 +222,9 @@ def with_study(years):
     given = assessments.package().assessment
     content = json.dumps(years).encode()
     sha256 = hashlib.sha256(content).hexdigest()
-    document = Document(label="Study of years", path="years.json", size=len(content), sha256=sha256)
+    document = Document(
+        label="Service-life study", path="years.json", size=len(content), sha256=sha256
+    )
     book = SimpleNamespace(files={sha256: content})
     sheet = replace(given.sheet, documents=(document,), book=book)
     return package_data(replace(given, sheet=sheet))

@@ -163,4 +163,4 @@ def test_a_workbook_from_before_a_cell_is_read_as_it_is(tmp_path):
 
 def test_lost_cells_are_refused(tmp_path):
     (problem,) = read(edit(make(tmp_path), without("site", "hazard_date"))).problems
-    assert "date of hazard is missing" in problem[1].found
+    assert "date of seismic parameters is missing" in problem[1].found

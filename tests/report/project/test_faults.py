@@ -45,7 +45,7 @@ def together(folder, cases, touched):
 
 
 NUMBER = "give a number from 0 to 1.5"
-WEIGHT = "give a number of more than 0 [lb]"
+WEIGHT = "give a number greater than 0 [lb]"
 CONTROL = "with control characters; retype it"
 FORMATTED = "give a number of 0 or more, formatted as a number"
 PARAPET = "for the minimum height of a qualifying parapet above the roof [in]; give a number from 0"
@@ -110,7 +110,7 @@ SINGLE_CELLS = {
         -1: "-1; give a number of 0 or more [in], or none",
     },
     "Motions/M2/ID": {" \u200b\ufeff\u2060 ": "missing; give text such as 'M1'"},
-    "Motions/M1/Time step": {0: "0; give a number of more than 0 to 1 [s]"},
+    "Motions/M1/Time step": {0: "0; give a number greater than 0, at most 1 [s]"},
     "Options/1/Value": {1e9: f"1e+09 {PARAPET} to 240"},
 }  # fmt: skip
 CONTENTS = [(name, typed, line) for name, of in SINGLE_CELLS.items() for typed, line in of.items()]
@@ -323,9 +323,9 @@ TYPED = [
     ({"Arrays/heading/High-velocity friction": "Slope"},
      "<Arrays/heading/High-velocity friction>: heading 'Slope' appears twice, also in"
      f" {cell_address('Arrays/heading/Slope').partition('!')[2]}; keep one"),
-    ({"Site/Structure height h/Unit": "yd", "Site/Height of the array z/Unit": None},
+    ({"Site/Structure height h/Unit": "yd", "Site/Roof height z/Unit": None},
      f"<Site/Structure height h/Unit>: unit of structure height h is 'yd'; {LENGTHS}",
-     f"<Site/Height of the array z/Unit>: unit of height of the array z is missing; {LENGTHS}"),
+     f"<Site/Roof height z/Unit>: unit of roof height z is missing; {LENGTHS}"),
     ({"Options/1/Provision": "minimum height of qualifying parapet above roof"},
      "Options/1/Provision is 'minimum height of qualifying parapet above roof'; did you mean"
      " 'Minimum height of a qualifying parapet above the roof'?"),

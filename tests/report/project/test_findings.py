@@ -330,7 +330,7 @@ def test_ranges_are_in_the_units_that_come_first_and_include_their_limits():
 
 IS_WET, NUMBER = "friction coefficient is 'wet'", "give a number from 0 to 1.5"
 WRONG = f"{IS_WET}; {NUMBER}"
-OTHER = "weight is 0; give a number of more than 0 [lb]"
+OTHER = "weight is 0; give a number greater than 0 [lb]"
 
 
 @pytest.mark.quick

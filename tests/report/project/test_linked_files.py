@@ -235,7 +235,7 @@ def test_channels_of_one_file_are_components(tmp_path, names):
 
 
 LETTER, REPORT = "Options/Letter of review", "Friction tests/Test report file"
-PRINTOUT = "Site/Hazard printout"
+PRINTOUT = "Site/Printout of seismic parameters"
 PDF = b"%PDF-1.7\nletter"
 
 
@@ -298,6 +298,6 @@ def test_one_file_in_three_cells_is_named_three_times(workbook):
     assert read(workbook).documents == ()
     naming(workbook, "both.pdf", PDF)
     documents = read(type_into(workbook, {REPORT: "both.pdf", PRINTOUT: "both.pdf"})).documents
-    labels = ["Hazard printout", "Test report file", "Letter of review"]
+    labels = ["Printout of seismic parameters", "Test report file", "Letter of review"]
     assert [each.label for each in documents] == labels
     assert {each.path for each in documents} == {"both.pdf"}

@@ -85,9 +85,9 @@ def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
         )
     )
     for place, words in {
-        "Site/S_DS/Computed": "S_DS, computed, is 1.2, typed over its formula",
+        "Site/S_DS/Computed": "the formula of S_DS, computed, was overwritten with 1.2",
         "Arrays/A1/Kind of array": "is blank, and its formula is gone",
-        ratios: "D/C, prescriptive (3 cells) is 0.5, typed",
+        ratios: "D/C, prescriptive (3 cells) was overwritten with 0.5",
     }.items():
         assert words in texts[workbooks.cell_address(place)]
     fresh = "copy it from a fresh workbook (roofslip new FOLDER)"

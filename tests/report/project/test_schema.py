@@ -187,7 +187,7 @@ GIVEN = {
     "Rule set": "ASCE 7-16", "Risk category": "III", "Importance factor I_e": None, "S_S": 0.75,
     "S_1": 0.30, "Site class": "D", "F_a": None, "F_v": 2.0, "S_DS": None,
     "Seismic design category": None, "S_MS": None, "S_M1": None, "S_D1": None,
-    "Hazard basis": None,
+    "Basis of seismic parameters": None,
 }  # fmt: skip
 """ASCE 7-16 Table 11.4-1: F_a is 1.2, so S_DS is 2/3 x 1.2 x 0.75 g = 0.6 g, and S_D1 0.4 g: D."""
 NAMES = ("Importance factor I_e", "F_a", "Seismic design category")
@@ -240,7 +240,7 @@ NO_SDC = "Site/Seismic design category is missing; choose A, B, C, D, E or F, or
             ({"S_1": None, "F_v": None}, f"{NO_SDC} S_1"),
             ({"S_1": None, "F_v": None, "S_S": 0.3}, f"{NO_SDC} S_1 and S_D1"),
             ({"Site class": "E", "S_S": 1.2}, NO_F_A),
-            ({"Hazard basis": "site-specific analysis"}, NO_F_A),
+            ({"Basis of seismic parameters": "site-specific analysis"}, NO_F_A),
             ({"Risk category": None}, "Site/Risk category is missing; choose I, II, III or IV"),
         ],
         2,

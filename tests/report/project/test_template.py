@@ -106,7 +106,7 @@ def test_inputs_are_yellow_until_filled_and_formulas_blue(fresh):
         assert cell(fresh, name).fill.start_color.rgb == color
     formulas = formula_cells(fresh)
     assert {c.fill.start_color.rgb for c in formulas} == {"00E3EDF5"}
-    for name in ("Site/Rule set", "Site/Fire lane width/Unit", "Arrays/1/ID", "Arrays/20/Slope"):
+    for name in ("Site/Rule set", "Site/Fire pathway width/Unit", "Arrays/1/ID", "Arrays/20/Slope"):
         at = cell(fresh, name)
         areas = [a for a in at.parent.conditional_formatting if at.coordinate in a.sqref]
         ((first, rule),) = [(str(a.sqref).split(":")[0], a.rules[0]) for a in areas]
@@ -119,10 +119,10 @@ def test_start_says_the_steps_and_links_every_sheet(fresh):
     text = "\n".join(str(value) for row in sheet.values for value in row if value is not None)
     for part in ("roofslip check FOLDER", "roofslip report FOLDER", "records", "Colors"):
         assert part in text
-    assert "Run roofslip check FOLDER, which finds what is missing or wrong" in text
+    assert "Run roofslip check FOLDER to list missing and incorrect entries" in text
     links = {c.value for row in sheet for c in row if c.hyperlink}
-    assert {link.removesuffix(", rarely needed") for link in links} == {*SHEETS[1:]}
-    assert {link.partition(",")[0] for link in links if "rarely" in link} == RARE
+    assert {link.removesuffix(" (seldom used)") for link in links} == {*SHEETS[1:]}
+    assert {link.partition(" (")[0] for link in links if "seldom" in link} == RARE
     tops = [fresh.defined_names[c.hyperlink.location] for row in sheet for c in row if c.hyperlink]
     assert {top.attr_text.partition("!")[2] for top in tops} == {"$A$1"}
     assert [row[0] for row in sheet.values if str(row[0]).isdecimal()] == list("123456")

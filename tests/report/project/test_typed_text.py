@@ -252,7 +252,7 @@ def test_a_format_without_digits_shows_nothing(nothing, cells):
 
 # Cell, number format, and how it shows the number; what to give instead.
 MISLEADING = [
-    ("Arrays/A1/CG height", '0" mm"', "9, shown in mm", "more than 0 [in]"),
+    ("Arrays/A1/CG height", '0" mm"', "9, shown in mm", "greater than 0 [in]"),
     ("Arrays/A1/Weight", "0,", "42000, shown divided by 1,000", "more than 0 [lb]"),
     ("Site/Structure height h", '0.0" m"', "36, shown in m", "0 [ft]"),
     ("Options/1/Value", '0" ft"', "18, shown in ft", "give a number"),
