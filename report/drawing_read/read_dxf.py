@@ -22,19 +22,17 @@ from ezdxf.tools.text import plain_mtext
 from ezdxf.xclip import XClip
 
 from report.drawing.items import APPLICATION
-from report.drawing_read.closed_lines import (
-    CURVES,
+from report.drawing_read.areas import (
     HATCHES,
-    MAX_POINTS,
     boundaries,
-    curve,
     faces,
     is_fill,
     is_mesh,
-    join,
     outlines,
     polygons,
 )
+from report.drawing_read.closed_lines import join
+from report.drawing_read.curves import CURVES, MAX_POINTS, curve
 from report.drawing_read.dxf_file import DAMAGED, MAX_ENTITIES, UNITS, limit, loaded, other_unit
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing, Unread, Words
 from report.project.model.shapes import Point, Polygon, ring

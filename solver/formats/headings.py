@@ -16,9 +16,10 @@ from dataclasses import dataclass, replace
 from itertools import chain, islice
 
 from solver.formats import phrases
+from solver.formats.likely_kinds import COLUMNS, likely_text
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER
 from solver.formats.phrases import Heading, Kind, parse
-from solver.formats.source import COLUMNS, Source, Stated, likely_text
+from solver.formats.source import Source, Stated
 from solver.model import InputError
 from solver.records.record import shown, unit_size
 

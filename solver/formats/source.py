@@ -1,7 +1,6 @@
 """The lines of a file with the units and step given by the caller, checked against each other.
 
-Sets the limits on files from unknown sources, and says what one that is not read probably is; reads
-no format. Read `open_source` first.
+Sets the limits on files from unknown sources; reads no format. Read `open_source` first.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from pathlib import Path
 
 from solver.bounds import SENSITIVITY
 from solver.files import check_length, read_file
+from solver.formats.likely_kinds import LOOKED_AT, likely_bytes, likely_text
 from solver.model import InputError, Problem
 from solver.records.record import (
     UNIT_CHOICES,
@@ -25,56 +25,10 @@ from solver.records.record import (
 )
 from solver.suggestions import meant
 
-_CONVERT = (
-    "convert it to times and accelerations, for example with ObsPy: write columns time_s,acc_g"
-)
-COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
-_AS_RECORD = "give the record itself, such as the file that its download page offers"
-_AS_READ = f"give the file of values that it reads, or {COLUMNS}"
-
-_TEXTS = (
-    (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
-    (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
-    (re.compile(r"""\s*(?:\{|\[\s*+(?:[\[{"'\d-]|$))"""), "JSON", COLUMNS),
-    (re.compile(r"TIMESERIES \S+_"), "TSPAIR or SLIST of EarthScope", _CONVERT),
-    (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
-    (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
-    (re.compile(r"(?i)\s*(?:timeSeries|set|pattern)\s+\S+\s+\S|\s*(?:import\s|function\s[^(]*\()"),
-     "a program", _AS_READ),
-)  # fmt: skip
-_LOOKED_AT = 15
-
-_BYTES = (
-    (re.compile(rb"MS\x03"), "miniSEED 3", _CONVERT),
-    (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),
-    (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its sheet as CSV"),
-    (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
-    (re.compile(rb"%PDF"), "a PDF", "give its numbers as text or CSV"),
-    (re.compile(rb"\x89HDF"), "HDF5, such as ASDF", _CONVERT),
-    (re.compile(rb"MATLAB"), "a file of MATLAB", COLUMNS),
-    (re.compile(rb"\x93NUMPY"), "an array of numpy", COLUMNS),
-)
 # Sequence number, then the quality of the data (SEED manual, fixed section of the header).
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \x00]")
 # NVHDR is word 76 of 4 bytes; 70 floats and 40 whole numbers precede 192 letters.
 _SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, {6, 7}
-
-
-def likely_text(lines: Sequence[str]) -> str:
-    """Return what a text that is no table of numbers probably is, and what to do; "" if unknown."""
-    near = [line for line in lines[:_LOOKED_AT] if line.strip()]
-    for pattern, name, remedy in _TEXTS:
-        if any(map(pattern.match, near)):
-            return f"this looks like {name}, which is not read; {remedy}"
-    return ""
-
-
-def likely_bytes(data: bytes) -> str:
-    """Return what a file that is no text probably is, and what to do; "" if unknown."""
-    for pattern, name, remedy in _BYTES:
-        if pattern.match(data):
-            return f"{name}; {remedy}"
-    return ""
 
 
 def waveform_format(data: bytes) -> str:
@@ -277,7 +231,7 @@ def _lines(name: str, data: bytes) -> list[str]:
         raise InputError(f"{name}: found {count:,} lines; give at most {MAX_LINES:,}")
     lines = text.split("\n")
     if max(map(len, lines)) > MAX_LINE:
-        if likely := likely_text([line[:MAX_LINE] for line in lines[:_LOOKED_AT]]):
+        if likely := likely_text([line[:MAX_LINE] for line in lines[:LOOKED_AT]]):
             raise InputError(f"{name}: {likely}")
         raise_any(
             f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"

@@ -9,7 +9,8 @@ from ezdxf.render.forms import cube
 
 from fixtures.dxf import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 from fixtures.project_parts import FT
-from report.drawing_read.closed_lines import BRANCHED, OPEN, curve, join
+from report.drawing_read.closed_lines import BRANCHED, OPEN, join
+from report.drawing_read.curves import curve
 from report.drawing_read.read_dxf import read_dxf
 from report.project.model.shapes import Polygon, ring
 

@@ -1,0 +1,67 @@
+"""What a file that is not read probably is, and what to do: by how its lines or bytes begin.
+
+`<?xml version=...` is XML, `PK` a zip or a workbook, `timeSeries Path 1` a program. Knows no format
+that is read.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+_CONVERT = (
+    "convert it to times and accelerations, for example with ObsPy: write columns time_s,acc_g"
+)
+
+
+COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
+
+
+_AS_RECORD = "give the record itself, such as the file that its download page offers"
+
+
+_AS_READ = f"give the file of values that it reads, or {COLUMNS}"
+
+
+_TEXTS = (
+    (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
+    (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
+    (re.compile(r"""\s*(?:\{|\[\s*+(?:[\[{"'\d-]|$))"""), "JSON", COLUMNS),
+    (re.compile(r"TIMESERIES \S+_"), "TSPAIR or SLIST of EarthScope", _CONVERT),
+    (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
+    (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
+    (re.compile(r"(?i)\s*(?:timeSeries|set|pattern)\s+\S+\s+\S|\s*(?:import\s|function\s[^(]*\()"),
+     "a program", _AS_READ),
+)  # fmt: skip
+
+
+LOOKED_AT = 15
+
+
+_BYTES = (
+    (re.compile(rb"MS\x03"), "miniSEED 3", _CONVERT),
+    (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),
+    (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its sheet as CSV"),
+    (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
+    (re.compile(rb"%PDF"), "a PDF", "give its numbers as text or CSV"),
+    (re.compile(rb"\x89HDF"), "HDF5, such as ASDF", _CONVERT),
+    (re.compile(rb"MATLAB"), "a file of MATLAB", COLUMNS),
+    (re.compile(rb"\x93NUMPY"), "an array of numpy", COLUMNS),
+)
+
+
+def likely_text(lines: Sequence[str]) -> str:
+    """Return what a text that is no table of numbers probably is, and what to do; "" if unknown."""
+    near = [line for line in lines[:LOOKED_AT] if line.strip()]
+    for pattern, name, remedy in _TEXTS:
+        if any(map(pattern.match, near)):
+            return f"this looks like {name}, which is not read; {remedy}"
+    return ""
+
+
+def likely_bytes(data: bytes) -> str:
+    """Return what a file that is no text probably is, and what to do; "" if unknown."""
+    for pattern, name, remedy in _BYTES:
+        if pattern.match(data):
+            return f"{name}; {remedy}"
+    return ""
