@@ -65,7 +65,8 @@ def test_the_reason_stands_first_wherever_the_verdict_does(name):
     shown = answer(done, is_provisional=False)
     assert title in shown["verdict_text"]
     assert start.lower() in first.lower()
-    assert shown["reasons"][0] == {"level": "NG", "text": first}
+    reason = shown["reasons"][0]
+    assert (reason["level"], reason["text"]) == ("NG", first)
     assert "Limits" not in page_of(made, "summary").table("Arrays").rows[0]
 
 
