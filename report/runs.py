@@ -1,5 +1,8 @@
 """One array under one motion: each component along the slope in each polarity; governing run.
 
+Two horizontal components in two polarities are four runs; seven motions are 28 for an array, and
+none more for a second array of that slope and friction.
+
 Integrates nothing itself (`solver.sliding.model_selection` does) and knows no code rule. Read
 `Runs`, then `report.assessment.assess`.
 """
@@ -134,18 +137,18 @@ class Runs:
 
     def copy(self) -> Runs:
         """Return the runs that there are; those that follow are kept in the copy alone."""
-        other = Runs(self._known, self._tolerance)
-        other._motions |= self._motions
-        other._begun |= self._begun
-        other._batches |= self._batches
-        other._done |= self._done
-        return other
+        copied = Runs(self._known, self._tolerance)
+        copied._motions |= self._motions
+        copied._begun |= self._begun
+        copied._batches |= self._batches
+        copied._done |= self._done
+        return copied
 
     def knowing(self, known: Reference) -> Runs:
         """Return the same runs, but of some arrays those in some orientations alone."""
-        other = copy(self)
-        other._known = known
-        return other
+        runs = copy(self)
+        runs._known = known
+        return runs
 
     def begin(self, arrays: Iterable[Array], motions: Iterable[Motion]) -> None:
         """Begin the runs of arrays under motions, without waiting for them."""
@@ -157,10 +160,14 @@ class Runs:
                     raise DefectError(f"{motion.id} is another motion than in the runs before")
                 names = self._names(array, motion)
                 if (scene, motion.id, names) not in self._batches:
-                    some = [each for each in motion.orientations if each.name in names]
+                    known = [
+                        orientation
+                        for orientation in motion.orientations
+                        if orientation.name in names
+                    ]
                     self._batches[scene, motion.id, names] = [
-                        self._run(scene, array, motion, each)
-                        for each in some or motion.orientations
+                        self._run(scene, array, motion, orientation)
+                        for orientation in known or motion.orientations
                     ]
 
     def of(self, array: Array, motions: Sequence[Motion]) -> tuple[MotionRun, ...]:
@@ -200,7 +207,9 @@ def scene_key(array: Array) -> Hashable:
 
 def run_motion(array: Array, motion: Motion) -> MotionRun:
     """Run one array under one motion in all of its runs, which are not kept."""
-    return motion_run(motion, [run_oriented(array, motion, each) for each in motion.orientations])
+    return motion_run(
+        motion, [run_oriented(array, motion, orientation) for orientation in motion.orientations]
+    )
 
 
 def largest_two(done: MotionRun) -> list[str]:

@@ -59,11 +59,11 @@ def assess(
     runs, motions = runs or Runs(), shaking.motions
     data = project or outdated(sheet.project, shaking.hashes)
     rules, goals = rule_set_of(data), targets(data)
-    less, slow = with_friction(data, 1.0 - SHIFT), with_low_velocity(data)
+    less_friction, slow = with_friction(data, 1.0 - SHIFT), with_low_velocity(data)
     runs.begin(data.arrays, motions)
     # Those of other friction follow without a pause, while motions and arrays are checked.
     if extent >= Extent.LESS_FRICTION:
-        runs.begin(less.arrays, motions)
+        runs.begin(less_friction.arrays, motions)
     if extent >= Extent.AS_GIVEN:
         runs.begin(slow.arrays, motions)
     acceptance = acceptance or shaking_acceptance(shaking, goals)
@@ -80,7 +80,7 @@ def assess(
         adopted = assess(sheet, shaking, runs, plain, acceptance=acceptance, extent=Extent.ALONE)
         arrays = tuple(map(marked, arrays, adopted.arrays))
         pairs = zip(clearances, adopted.clearances, strict=True)
-        clearances = tuple(marked_gap(gap, other, arrays) for gap, other in pairs)
+        clearances = tuple(marked_gap(gap, as_adopted_gap, arrays) for gap, as_adopted_gap in pairs)
     done = Assessment(
         sheet=sheet,
         shaking=shaking,
@@ -98,7 +98,7 @@ def assess(
         slower = NOT_BY_VELOCITY if slow is data else low_velocity(done, reassess(done, slow))
         done = replace(done, linked=tuple(rows), low_velocity=slower)
     if extent >= Extent.LESS_FRICTION:
-        done = replace(done, at_reduced_friction=reassess(done, less))
+        done = replace(done, at_reduced_friction=reassess(done, less_friction))
     if extent >= Extent.WHOLE:
         done = replace(done, otherwise=prices(done, reassess))
     return done
@@ -115,8 +115,10 @@ def reassess(
     if without:
         shaking = replace(
             shaking,
-            motions=tuple(each for each in shaking.motions if each.id not in without),
-            prepared=tuple(each for each in shaking.prepared if each.motion_id not in without),
+            motions=tuple(motion for motion in shaking.motions if motion.id not in without),
+            prepared=tuple(
+                motion for motion in shaking.prepared if motion.motion_id not in without
+            ),
         )
     is_known = not without and all(getattr(project, k) == getattr(done.project, k) for k in same)
     acceptance = done.acceptance if is_known else None

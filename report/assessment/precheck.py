@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 
 from report.assessment.checks.array_capacities import slack_check
 from report.assessment.checks.check import Check
@@ -48,7 +49,7 @@ MOST_NAMED = 50
 def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
     """Return what an engineer is asked about, with the reasons that the workbook gives."""
     data = sheet.project
-    hidden = [*sheet.unseen, *(cell for file in shaking.records for cell in file.unseen)]
+    hidden = [*sheet.unseen, *chain.from_iterable(file.unseen for file in shaking.records)]
     return acknowledged(
         data,
         [*sheet.warnings, *warnings(hidden), *implausible(data), *record_findings(data, shaking)],
@@ -114,23 +115,25 @@ def _not_run(data: ProjectInput) -> Iterator[Finding]:
          bool(data.options.smaller_factors)),
         (Place("options", 0, "peer_reviewed"), "peer review", data.options.peer_reviewed),
     )  # fmt: skip
-    for place, what, is_asked in asked:
+    for place, noun, is_asked in asked:
         if is_asked:
-            yield note(place, f"{what} needs motions and is skipped")
+            yield note(place, f"{noun} needs motions and is skipped")
 
 
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:
     """Yield the pairs of the plan without a clearance, before any run, each with its distance."""
     data = sheet.project
-    near = [each for each in pairs_before_runs(data, sheet.addresses) if each.is_near]
-    missing = sorted((each for each in near if not each.given), key=lambda each: each.gap_m)
+    near = [neighbor for neighbor in pairs_before_runs(data, sheet.addresses) if neighbor.is_near]
+    missing = sorted(
+        (neighbor for neighbor in near if not neighbor.given), key=lambda neighbor: neighbor.gap_m
+    )
     if not missing:
         return
     units = Quantity.SIZE, data.us_first
-    sizes = (f"{each.names} {pair(each.gap_m, *units, no_more)}" for each in missing)
+    sizes = (f"{neighbor.names} {pair(neighbor.gap_m, *units, no_more)}" for neighbor in missing)
     named = listed(sizes, MOST_NAMED)
     reach = pair(REACH_FACTOR * design_before_runs_m(data), *units, no_less)
-    is_bare = any(each.kind is NearbyKind.BARE_EDGE for each in missing)
+    is_bare = any(neighbor.kind is NearbyKind.BARE_EDGE for neighbor in missing)
     text = (
         f"{len(missing)} of {numbered(len(near), 'pair')} within reach have no row: {named}."
         f" Reach before any run: twice the prescriptive displacement, {reach}, or what it requires."

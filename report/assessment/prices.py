@@ -39,13 +39,13 @@ def prices(
     given another input, and the motions that it is without.
     """
     found = dict[str, str]()
-    wanted = {check.id for check in done.checks if check.is_open} | {
+    asked_for = {check.id for check in done.checks if check.is_open} | {
         _REVIEW,
         _RULE_SET,
         VELOCITY_ROW,
     }
     for ids, other, motions, how in _others(done):
-        if (motions or other is not done.project) and not wanted.isdisjoint(ids):
+        if (motions or other is not done.project) and not asked_for.isdisjoint(ids):
             found |= dict.fromkeys(ids, _price(done, reassess(done, other, motions), how))
     return {id: text for id, text in found.items() if text}
 
@@ -82,8 +82,10 @@ def _price(done: Assessment, other: Assessment, how: str) -> str:
     linked = [replace(row, design=by_id(other.arrays, row.design.id)) for row in done.linked]
     other = replace(other, linked=tuple(linked))
 
-    def came(each: Assessment) -> Sequence[object]:
-        return [(item.permitted_m, each.array_verdict(item) is Verdict.NG) for item in each.arrays]
+    def came(found: Assessment) -> Sequence[object]:
+        return [
+            (item.permitted_m, found.array_verdict(item) is Verdict.NG) for item in found.arrays
+        ]
 
     if repr(came(done)) == repr(came(other)):
         return ""

@@ -1,9 +1,14 @@
-"""Checks that ask the same of several subjects, as one."""
+"""Checks that ask the same of several subjects, as one.
+
+Electrical slack of A1 with D/C 1.02 and of A2 with D/C 1.09 are one check of A1 and A2 with D/C
+1.09; of clearances the worst pair is named, and how many more there are.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import replace
+from itertools import chain
 
 from report.assessment.checks.check import Check
 from report.assessment.checks.sentence import PAIRS
@@ -31,22 +36,24 @@ def _as_one(group: Sequence[Check]) -> Check:
     worst_one = max(group, key=size)
     found, limit, note = worst_one.found, worst_one.limit, worst_one.note
     if isinstance(limit, Amount):
-        if any((each.found, each.limit) != (found, limit) for each in group):
+        if any((check.found, check.limit) != (found, limit) for check in group):
             limit = replace(limit, mark=f"{limit.mark} ({worst_one.subject})")
-    elif all(isinstance(each.found, Amount) for each in group):
+    elif all(isinstance(check.found, Amount) for check in group):
         found = _apart(group)
     else:
         found, note = _found(group), ""
+    arrays = dict.fromkeys(chain.from_iterable(check.arrays for check in group))
+    places = dict.fromkeys(chain.from_iterable(check.places for check in group))
     return replace(
         worst_one,
         subject=subjects(group),
         found=found,
         limit=limit,
         note=note,
-        arrays=tuple(dict.fromkeys(id for check in group for id in check.arrays)),
+        arrays=tuple(arrays),
         remedy=" ".join(dict.fromkeys(check.remedy for check in group)),
         otherwise=" ".join(dict.fromkeys(c.otherwise for c in group if c.otherwise)),
-        places=tuple(dict.fromkeys(place for check in group for place in check.places)),
+        places=tuple(places),
     )
 
 
@@ -60,8 +67,8 @@ def size(check: Check) -> tuple[float, float]:
 def _apart(group: Sequence[Check]) -> Amount:
     """Return of amounts that nothing is compared with the one on the safe side."""
     amounts = [(each.found, each.subject) for each in group if isinstance(each.found, Amount)]
-    least = amounts[0][0].rounding is Rounding.DOWN
-    found, subject = (min if least else max)(amounts, key=lambda each: each[0].value)
+    is_capacity = amounts[0][0].rounding is Rounding.DOWN
+    found, subject = (min if is_capacity else max)(amounts, key=lambda each: each[0].value)
     is_one = all(each == found for each, _ in amounts)
     return found if is_one else replace(found, mark=f"{found.mark} ({subject})")
 

@@ -123,5 +123,5 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
 
 
 def _places(data: ProjectInput, array: Array, *fields: str) -> tuple[Place, ...]:
-    index = [each.id for each in data.arrays].index(array.id)
+    index = [row.id for row in data.arrays].index(array.id)
     return tuple(Place("arrays", index, field) for field in fields)

@@ -173,13 +173,13 @@ def dagger(provision: Provision) -> str:
 
 def by_ratio(checks: Iterable[Check]) -> Sequence[Check]:
     """Return what is NG, then conditions, then the capacities, each the largest ratio first."""
-    shown = [
+    ranked = [
         check
         for check in checks
         if check.is_open
         or (check.is_capacity and not check.is_note and not math.isnan(check.ratio))
     ]
-    return sorted(shown, key=lambda check: (-severity(check.verdict), -nan_is_worst(check.ratio)))
+    return sorted(ranked, key=lambda check: (-severity(check.verdict), -nan_is_worst(check.ratio)))
 
 
 def verdict_of(checks: Iterable[Check], array: str = "") -> Verdict:

@@ -36,7 +36,7 @@ def clearance_check(gap: ClearanceCheck, index: int = 0, ids: Sequence[str] = ()
         id="clearance",
         title="Clearance",
         subject=f"{row.array} to {row.object}",
-        arrays=tuple(each for each in (row.array, row.object) if each in ids),
+        arrays=tuple(name for name in (row.array, row.object) if name in ids),
         found=capacity(row.provided_m, Quantity.SIZE),
         limit=demand(gap.required_m, Quantity.SIZE, gap.mark) if has_limit else NO_DESIGN,
         sense=Sense.AT_LEAST if has_limit else Sense.STATED,

@@ -58,7 +58,7 @@ def _dates(data: ProjectInput) -> Iterator[Check]:
         ("confirmation of the drawing", data.project.drawing_confirmed_date,
          Place("project", 0, "drawing_confirmed_date"), f"{again}."),
     )  # fmt: skip
-    for what, date, place, remedy in dated:
+    for noun, date, place, remedy in dated:
         if date is None:
             continue
         # A later date may be a slip of typing: until then it confirms nothing.
@@ -67,7 +67,7 @@ def _dates(data: ProjectInput) -> Iterator[Check]:
         sheets = data.outdated.get(place.section)
         yield condition(
             id="dates",
-            title=f"Date of the {what}",
+            title=f"Date of the {noun}",
             found=f"{date}" + (f", given before these inputs changed: {sheets}" if sheets else ""),
             limit=f"not later than {issued}, and for these inputs",
             clause="plan check",

@@ -11,7 +11,6 @@ from report.assessment.checks.array_capacities import slack_check
 from report.assessment.checks.check import THIS_PROGRAM, Check, Sense
 from report.assessment.design.routes import Route, lacking_motions, statistic_basis
 from report.text.amounts import Amount, capacity, demand
-from report.text.grouping import grouped_by
 from report.text.letter_case import lowered
 from report.text.names import ranged
 from report.text.units import Quantity, no_less, pair
@@ -34,7 +33,7 @@ def of_array(done: Assessment, item: ArrayAssessment) -> Iterator[Check]:
     if item.runs:
         yield from run_checks(item, done.project.us_first)
     yield _tipping(item)
-    index = [each.id for each in done.arrays].index(item.id)
+    index = [other_array.id for other_array in done.arrays].index(item.id)
     yield slack_check(item.array, item.permitted_m, index)
 
 
@@ -100,18 +99,23 @@ def _would_do(run: OrientedRun) -> str:
 
 def run_checks(item: ArrayAssessment, us_first: bool) -> Iterator[Check]:
     """Yield whether every run of an array comes to rest, one check for each outcome."""
-    named = [(motion.motion.id, run) for motion in item.motions for run in motion.runs]
-    outcomes = grouped_by(named, lambda each: (each[1].result.status, _would_do(each[1])))
-    failed = {key: of for key, of in outcomes.items() if key[0] is not Status.OK}
-    for (status, remedy), of in (failed or outcomes).items():
-        outcome = _outcome(status, [run for _, run in of], us_first)
+    outcomes: dict[tuple[Status, str], list[OrientedRun]] = {}
+    motions: dict[tuple[Status, str], list[str]] = {}
+    for motion in item.motions:
+        for run in motion.runs:
+            key = run.result.status, _would_do(run)
+            outcomes.setdefault(key, []).append(run)
+            motions.setdefault(key, []).append(motion.motion.id)
+    failed = {key: runs for key, runs in outcomes.items() if key[0] is not Status.OK}
+    for (status, remedy), runs in (failed or outcomes).items():
+        outcome = _outcome(status, runs, us_first)
         yield Check(
             id="runs",
             title="Runs that come to rest",
             subject=item.id,
             arrays=(item.id,),
-            found=f"{len(of)} of {len(named)} runs: {outcome}" if failed else "all",
-            note=ranged(name for name, _ in of) if failed else "",
+            found=f"{len(runs)} of {len(item.runs)} runs: {outcome}" if failed else "all",
+            note=ranged(motions[status, remedy]) if failed else "",
             limit="all",
             clause=THIS_PROGRAM,
             is_satisfied=not failed,
@@ -153,8 +157,8 @@ def of_links(linked: LinkedArray) -> Check:
     note = "one rigid block does not slide in one axis" if math.isinf(estimated_m) else ""
     if not linked.is_final:
         found = "not every block comes to rest"
-        lost = (each for each in linked.motions if not all(run.is_final for run in each.runs))
-        note = ranged(each.motion.id for each in lost)
+        lost = (motion for motion in linked.motions if not all(run.is_final for run in motion.runs))
+        note = ranged(motion.motion.id for motion in lost)
     elif math.isnan(estimated_m):
         found = "none"
     has_limit = not math.isnan(linked.most_m)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from report.assessment.checks import (
@@ -48,7 +49,7 @@ def every(done: Assessment) -> tuple[Check, ...]:
     has_variations = done.at_reduced_friction is not None and done.has_motions
     found = (
         *before_runs(data, done.rules, done.shaking, done.acceptance, routes, by_runs),
-        *(check for item in done.arrays for check in displacement.of_array(done, item)),
+        *chain.from_iterable(displacement.of_array(done, item) for item in done.arrays),
         *map(displacement.of_links, done.linked),
         *clearance_checks.of_clearances(done),
         *fire_access.of_pathways(data, done.pairs),
@@ -65,13 +66,13 @@ def every(done: Assessment) -> tuple[Check, ...]:
 def _with_otherwise(checks: Sequence[Check], otherwise: Mapping[str, str]) -> Iterator[Check]:
     """Yield checks, each outcome with the first that is open of those that it is the outcome of."""
     # Two overrides have one outcome, and so has one friction law of several arrays.
-    told = dict[str, Check]()
+    carriers = dict[str, Check]()
     for check in sorted(checks, key=lambda check: not check.is_open):
         if check.id in otherwise:
-            told.setdefault(otherwise[check.id], check)
+            carriers.setdefault(otherwise[check.id], check)
     for check in checks:
         text = otherwise.get(check.id, "")
-        yield replace(check, otherwise=text) if told.get(text) is check else check
+        yield replace(check, otherwise=text) if carriers.get(text) is check else check
 
 
 def before_runs(

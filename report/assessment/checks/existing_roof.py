@@ -33,23 +33,23 @@ def of_existing_roof(data: ProjectInput) -> Iterator[Check]:
     code = "CEBC" if site.building_code is BuildingCode.CBC else "IEBC"
     year = f", {site.building_code_year}" if site.building_code else ""
     lacking: dict[str, str] = {}
-    for field, load, added, own, quantity, of, most_percent, section in (
+    for field, load, added, roof_value, quantity, subject, most_percent, section in (
         ("roof_load_pa", "design load of the roof", heaviest.weight_pa, site.roof_load_pa,
          Quantity.PRESSURE, heaviest.id, 5.0, "503.3"),
         ("seismic_weight_n", "seismic weight of the building", added_n, site.seismic_weight_n,
          Quantity.WEIGHT, "all arrays", 10.0, "503.4"),
     ):  # fmt: skip
-        if own is None:
+        if roof_value is None:
             lacking[field] = load
             continue
-        percent = 100.0 * added / own
-        first, second = (pair(value, quantity, data.us_first) for value in (added, own))
+        percent = 100.0 * added / roof_value
+        first, second = (pair(value, quantity, data.us_first) for value in (added, roof_value))
         is_met = percent <= most_percent * (1.0 + _NOISE)
         yield condition(
             id=field,
             title=f"Weight added / {load}",
             found=demand(percent, Quantity.PERCENT),
-            note=f"{of}: {first} of {second}"
+            note=f"{subject}: {first} of {second}"
             + ("" if is_met or not evaluated else f"; {evaluated}"),
             limit=capacity(most_percent, Quantity.PERCENT, mark=", or an evaluation"),
             sense=Sense.AT_MOST,

@@ -103,11 +103,11 @@ def of_sections(data: ProjectInput) -> Iterator[Check]:
     """Yield for each array the plan dimension of all that no fire pathway separates from it."""
     # The section of the code is an input: local fire codes amend the limit and its number.
     lane_m, section = data.site.fire_lane_m, data.site.fire_code_section
-    at = {array.id: row for row, array in enumerate(data.arrays)}
+    rows = {array.id: row for row, array in enumerate(data.arrays)}
     yield condition(
         id="fire_code",
         title="Section of the fire code",
-        arrays=tuple(at),
+        arrays=tuple(rows),
         found=section or NOT_GIVEN,
         limit="the section on arrays on roofs",
         clause="fire code",
@@ -134,7 +134,7 @@ def of_sections(data: ProjectInput) -> Iterator[Check]:
                 is_satisfied=dimension_m <= _MOST_M,
                 remedy="Separate the arrays with a fire pathway, or obtain the fire department's "
                 f"approval. {STAYS}",
-                places=tuple(Place("arrays", at[array.id], side) for side in SIDES),
+                places=tuple(Place("arrays", rows[array.id], side) for side in SIDES),
             )
 
 

@@ -109,8 +109,8 @@ def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterat
         s: runs_by_velocity(series, us_first) if series else "0 runs"
         for s, series in by_surface.items()
     }
-    for said, alike in grouped_by(words, words.__getitem__).items():
-        yield f"{' and '.join(alike)} {said}"
+    for text, alike in grouped_by(words, words.__getitem__).items():
+        yield f"{' and '.join(alike)} {text}"
 
 
 def of_velocities(data: ProjectInput, arrays: Sequence[ArrayAssessment]) -> Iterator[Check]:
@@ -140,24 +140,30 @@ def _velocity(array_id: str, check: VelocityCheck, us_first: bool) -> Check:
 def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
     """Return what is compared: the sliding velocity, or the friction above the tested range."""
     fastest_mps, tested_mps = check.fastest_mps, check.tested_mps
-    found, most = demand(fastest_mps, Quantity.VELOCITY), entered(tested_mps, Quantity.VELOCITY)
+    found, tested = (
+        demand(fastest_mps, Quantity.VELOCITY),
+        entered(tested_mps, Quantity.VELOCITY),
+    )
     if not check.is_beyond:
         if math.isnan(tested_mps):
             return {"found": "does not slide", "limit": "tests at the sliding velocities"}
-        return {"found": found, "limit": most, "sense": Sense.AT_MOST, "note": "as tested"}
-    slides, to = compared_pairs(found, most, Quantity.VELOCITY, us_first, is_at_least=False)
+        return {"found": found, "limit": tested, "sense": Sense.AT_MOST, "note": "as tested"}
+    velocities = found, tested, Quantity.VELOCITY
+    slides, range_text = compared_pairs(*velocities, us_first, is_at_least=False)
     slides = (
         "no velocity from one of the runs"
         if math.isnan(fastest_mps)
         else f"peak sliding velocity {slides}"
     )
     if check.tests is None:
-        said = f"{slides}; no friction test runs entered"
-        return {"found": said, "limit": "tests at the sliding velocities"}
-    to = f"velocities tested {NOT_GIVEN}" if math.isnan(tested_mps) else f"tested to {to}"
-    mu, least = f"μ above the tested range {check.beyond_words}", check.minimum_words
+        found_text = f"{slides}; no friction test runs entered"
+        return {"found": found_text, "limit": "tests at the sliding velocities"}
+    range_text = f"tested to {range_text}"
+    if math.isnan(tested_mps):
+        range_text = f"velocities tested {NOT_GIVEN}"
+    mu, minimum = f"μ above the tested range {check.beyond_words}", check.minimum_words
     incomplete = "" if check.is_complete else "tests not complete"
-    notes = filter(None, (to, f"{mu}, smallest tested {least}", incomplete))
+    notes = filter(None, (range_text, f"{mu}, smallest tested {minimum}", incomplete))
     if check.is_far and math.isfinite(fastest_mps) and tested_mps > 0.0:
         limit = capacity(MOST_BEYOND * tested_mps, Quantity.VELOCITY)
         note = f"{'; '.join(notes)}; at most {MOST_BEYOND:g} times as fast"
@@ -171,5 +177,5 @@ def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
         "found": demand(check.mu_beyond, Quantity.COEFFICIENT),
         "limit": capacity(check.minimum_mu, Quantity.COEFFICIENT),
         "sense": Sense.AT_MOST,
-        "note": f"μ above the tested range; {slides}, {to}",
+        "note": f"μ above the tested range; {slides}, {range_text}",
     }

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 def of_less(done: Assessment) -> Iterator[Check]:
     """Yield the routes and clearances that are permitted as given, and not with less friction."""
-    less = done.at_reduced_friction
-    if less is None:
+    reduced = done.at_reduced_friction
+    if reduced is None:
         return
     friction = f"{number(100.0 * SHIFT, 0)} % less friction"
     row = partial(condition, is_satisfied=False, clause="sensitivity", is_capacity=False)
-    changed = [*_routes(done, less, friction, row), *_clearances(done, less, friction, row)]
+    changed = [*_routes(done, reduced, friction, row), *_clearances(done, reduced, friction, row)]
     yield from changed or [
         row(
             id="less_friction",
@@ -35,9 +35,9 @@ def of_less(done: Assessment) -> Iterator[Check]:
 
 
 def _routes(
-    done: Assessment, less: Assessment, friction: str, row: partial[Check]
+    done: Assessment, reduced_assessment: Assessment, friction: str, row: partial[Check]
 ) -> Iterator[Check]:
-    for array, reduced in zip(done.arrays, less.arrays, strict=True):
+    for array, reduced in zip(done.arrays, reduced_assessment.arrays, strict=True):
         if array.is_permitted and not reduced.is_permitted:
             # No code asks for this margin, and no cell could show it: only a larger coefficient.
             yield row(
@@ -52,9 +52,9 @@ def _routes(
 
 
 def _clearances(
-    done: Assessment, less: Assessment, friction: str, row: partial[Check]
+    done: Assessment, reduced_assessment: Assessment, friction: str, row: partial[Check]
 ) -> Iterator[Check]:
-    for gap, short in zip(done.clearances, less.clearances, strict=True):
+    for gap, short in zip(done.clearances, reduced_assessment.clearances, strict=True):
         if gap.verdict.is_permitted and not short.verdict.is_permitted:
             clearance = gap.clearance
             yield row(

@@ -71,18 +71,18 @@ def _remedy(*, is_ng: bool, has_analysis: bool) -> str:
 
 def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
     """Return how records reach the target: by a factor, if one does, and by motions of them."""
-    ways, more = "", _factor(acceptance)
-    if more <= MOST_FACTOR:
-        factors = ids_by(shaking.motions, lambda motion: digits_up(motion.scale * more, 4))
-        each = "; ".join(f"{ranged(ids)} {factor}" for factor, ids in factors.items())
+    ways, common = "", _factor(acceptance)
+    if common <= MOST_FACTOR:
+        factors = ids_by(shaking.motions, lambda motion: digits_up(motion.scale * common, 4))
+        listed = "; ".join(f"{ranged(ids)} {factor}" for factor, ids in factors.items())
         ways = (
-            f" With {digits_up(more, 3)} times their factors they reach it: set Scaling to factor"
-            f" on the Motions worksheet, and the factors {each}."
+            f" With {digits_up(common, 3)} times their factors they reach it: set Scaling to factor"
+            f" on the Motions worksheet, and the factors {listed}."
         )
     are_records = not any(motion.is_generated for motion in acceptance.motions)
     if are_records and all(file.is_file for file in shaking.records):
         files = grouped_by(shaking.records, attrgetter("motion_id")).values()
-        seeds = " ".join(quoted(",".join(file.name for file in each)) for each in files)
+        seeds = " ".join(quoted(",".join(file.name for file in names)) for names in files)
         ways += (
             " Or clear their rows on the Motions worksheet and generate motions from them that"
             " reach it, in the folder of the workbook: roofslip motion suite matched --into ."
@@ -108,12 +108,12 @@ def drift_limits(prepared: Sequence[PreparedMotion]) -> tuple[Limit, ...]:
     free = [motion for motion in prepared if not motion.drift_basis]
 
     def largest(motions: Sequence[PreparedMotion], end: str) -> tuple[float, str]:
-        ends = (
-            (round(abs(getattr(measures, end)), 9), f"{motion.motion_id}, {name}")
-            for motion in motions
-            for name, measures in motion.measures.items()
-        )
-        return max(ends, default=(0.0, ""))
+        largest_end = (0.0, "")
+        for motion in motions:
+            for name, measures in motion.measures.items():
+                value = round(abs(getattr(measures, end)), 9)
+                largest_end = max(largest_end, (value, f"{motion.motion_id}, {name}"))
+        return largest_end
 
     ends = (
         (*largest(free, "final_displacement_m"), MOST_DRIFT_M, Measure.LENGTH_M),
@@ -123,13 +123,13 @@ def drift_limits(prepared: Sequence[PreparedMotion]) -> tuple[Limit, ...]:
         Limit(
             title=title,
             found=found,
-            limit=most,
+            limit=limit,
             is_at_least=False,
             measure=measure,
             provision=PROGRAM,
             worst=worst if found > 0.0 else "",
         )
-        for title, (found, worst, most, measure) in zip(_DRIFT_TITLES, ends, strict=True)
+        for title, (found, worst, limit, measure) in zip(_DRIFT_TITLES, ends, strict=True)
     )
 
 

@@ -21,8 +21,8 @@ def of_overrides(data: ProjectInput) -> Iterator[Check]:
     """Yield what requires less than the rule set: each override that does, and each departure."""
     rules = RULE_SETS[data.site.rule_set]
     for index, row in enumerate(data.overrides):
-        if (rule := rules.values.get(row.provision)) is not None:
-            yield _override(rule, index, row)
+        if row.provision in rules.values:
+            yield _override(rules.values[row.provision], index, row)
     if takes_plain_mean(data):
         yield _lowering(
             id="statistic",

@@ -69,11 +69,11 @@ def _ground_motions(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> I
     for name in ("horizontal", "transverse"):
         records = [item.scaled[name] for item in prepared if item.roof and name in item.scaled]
         if records and np.isfinite(goal_mps2).any():
-            spectra = [spectrum_mps2(each.a_mps2.tobytes(), each.dt_s) for each in records]
+            spectra = [spectrum_mps2(record.a_mps2.tobytes(), record.dt_s) for record in records]
             ratios = np.mean(spectra, axis=0) / goal_mps2
-            at = int(np.nanargmax(ratios))
+            index = int(np.nanargmax(ratios))
             ratio, where = max(
-                (ratio, where), (float(ratios[at]), f"{name}, at {periods_s[at]:.3g} s")
+                (ratio, where), (float(ratios[index]), f"{name}, at {periods_s[index]:.3g} s")
             )
     row = partial(
         condition,

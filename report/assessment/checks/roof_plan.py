@@ -15,6 +15,7 @@ from report.project.model.choices import ClearanceSource, DistanceBasis
 from report.project.model.place import Place
 from report.project.model.placed import SIDES
 from report.text.amounts import Amount, capacity, demand
+from report.text.letter_case import capitalized
 from report.text.units import Quantity, no_more, pair
 from solver.rules.limit import Consequence
 
@@ -25,24 +26,24 @@ if TYPE_CHECKING:
 
 def of_neighbors(done: Assessment) -> Iterator[Check]:
     """Yield what the plan shows near an array and no clearance covers, or contradicts."""
-    wrong = [(near, *short) for near in done.neighbors for short in near.shortcomings()]
-    for near, cell, words in wrong:
+    for near in done.neighbors:
         found, limit = _found_and_required(near, done.project.us_first)
-        yield Check(
-            id=PLAN_ROW,
-            title="Clearance as on the plan",
-            subject=near.names,
-            arrays=(near.array,),
-            found=found,
-            note=NOT_GIVEN if near.is_short else "",
-            limit=limit,
-            sense=Sense.STATED if isinstance(limit, str) else Sense.AT_LEAST,
-            clause="roof plan",
-            is_satisfied=False,
-            consequence=Consequence.NG if near.is_short else Consequence.CONDITION,
-            remedy=f"{words[:1].upper()}{words[1:]} ({cell}).",
-        )
-    if done.neighbors and not wrong:
+        for cell, words in near.shortcomings():
+            yield Check(
+                id=PLAN_ROW,
+                title="Clearance as on the plan",
+                subject=near.names,
+                arrays=(near.array,),
+                found=found,
+                note=NOT_GIVEN if near.is_short else "",
+                limit=limit,
+                sense=Sense.STATED if isinstance(limit, str) else Sense.AT_LEAST,
+                clause="roof plan",
+                is_satisfied=False,
+                consequence=Consequence.NG if near.is_short else Consequence.CONDITION,
+                remedy=f"{capitalized(words)} ({cell}).",
+            )
+    if done.neighbors and not any(near.shortcomings() for near in done.neighbors):
         yield condition(
             id=PLAN_ROW,
             title="Clearances as on the plan",

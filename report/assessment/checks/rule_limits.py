@@ -54,9 +54,9 @@ def against_analysis(
 ) -> Sequence[str]:
     """Return what does not permit the analysis of an array, in a few words each."""
     limits = (*acceptance.missed, *item.analysis_checks)
-    missed = [each for each in limits if not each.ok and each.consequence is Consequence.NG]
+    missed = [limit for limit in limits if not limit.ok and limit.consequence is Consequence.NG]
     lacking = lacking_motions(rules, statistic_basis(data), n_motions)
-    return [words(of_limit(each)) for each in missed] or [lacking] * bool(lacking)
+    return [words(of_limit(limit)) for limit in missed] or [lacking] * bool(lacking)
 
 
 def of_limit(limit: Limit, subject: str = "") -> Check:

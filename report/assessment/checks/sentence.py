@@ -33,14 +33,14 @@ def found_and_limit(check: Check, us_first: bool) -> tuple[str, str]:
 def sentence(check: Check, us_first: bool) -> str:
     """Return a check in words: of what, what was found, what is required and by which clause."""
     found, limit = _texts(check, us_first)
-    of = f"{check.title}, {check.subject}" if check.subject else check.title
+    heading = f"{check.title}, {check.subject}" if check.subject else check.title
     found += f" ({check.note})" if check.note else ""
     if isinstance(check.limit, Amount):
         limit = f"{check.sense.words} {limit}"
     close = check.to_close  # of a note it says what does not follow
     if check.is_open and close:
         close = f"To close: {lowered(close)}"
-    parts = f"{of}: {found}.", f"Required: {limit} ({check.clause}).", close, check.otherwise
+    parts = f"{heading}: {found}.", f"Required: {limit} ({check.clause}).", close, check.otherwise
     return capitalized(" ".join(filter(None, parts)))
 
 

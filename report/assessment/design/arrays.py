@@ -1,5 +1,9 @@
 """One array under all motions, checked against the rule set: its design displacement.
 
+The PRDs of its runs give a value from analysis by a statistic of the rule set. The design
+displacement is that value, or the floor where that is larger and no peer review removes it; by the
+prescriptive route it is the prescriptive value, or the largest PRD where that is larger.
+
 Computes no physics (`report.runs`) and reads no code rule itself
 (`solver.rules.provisions`). Read `assess_array`.
 """
@@ -10,6 +14,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from itertools import chain
+from operator import attrgetter
 
 from report.assessment.design.routes import (
     NOT_PERMITTED,
@@ -106,7 +112,7 @@ class ArrayAssessment:
     @property
     def runs(self) -> tuple[OrientedRun, ...]:
         """Every run under every motion."""
-        return tuple(run for motion in self.motions for run in motion.runs)
+        return tuple(chain.from_iterable(motion.runs for motion in self.motions))
 
     @property
     def governs(self) -> DesignBasis:
@@ -224,9 +230,7 @@ def assess_array(
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
         tipping=_nearest_to_tipping(array, runs),
         uplift=min(
-            (motion.uplift for motion in runs),
-            key=lambda most_uplifted: most_uplifted.n_min_g,
-            default=NO_UPLIFT,
+            (motion.uplift for motion in runs), key=attrgetter("n_min_g"), default=NO_UPLIFT
         ),
         interconnection_n=interconnection_n(data, rules, array),
     )
@@ -250,7 +254,7 @@ def _nearest_to_tipping(array: Array, motions: Sequence[MotionRun]) -> Tipping:
     supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
     # Both ratios of the check rise with the friction that a run demands. Without runs, friction
     # alone limits what is transmitted.
-    runs = (run for motion in motions for run in motion.runs)
+    runs = chain.from_iterable(motion.runs for motion in motions)
     demand = max((run.solution.friction_demand for run in runs), default=math.inf)
     return tipping_at(demand, array.friction, supports)
 

@@ -1,5 +1,9 @@
 """Clearances of an array: the object across each gap, required and provided separation.
 
+An array that may slide 0.80 m stands 1.00 m from a fixed object. Where the rule set asks one such
+displacement there, 0.80 m are required: D/C 0.80, OK. Where the object is another array that slides
+0.95 m, that displacement governs for both.
+
 Reads no code rule itself (`solver.rules.provisions`). Read `check_clearance`.
 """
 
@@ -26,9 +30,9 @@ if TYPE_CHECKING:
     from report.assessment.design.arrays import ArrayAssessment, Displacement
 
 
-def by_id(arrays: Sequence[ArrayAssessment], wanted: str) -> ArrayAssessment:
+def by_id(arrays: Sequence[ArrayAssessment], array_id: str) -> ArrayAssessment:
     """Return the array with an id."""
-    return next(array for array in arrays if array.id == wanted)
+    return next(array for array in arrays if array.id == array_id)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,8 +102,8 @@ def check_clearance(
     # As entered: a trial with other friction on one side does not make them unlike.
     near = next(array for array in data.arrays if array.id == row.array)
     rows: Sequence[Array | RoofObject] = (*data.arrays, *data.objects)
-    other = next(each for each in rows if each.id == row.object)
-    neighbor, importance = neighbor_across(data, rules, near, other)
+    neighbor_row = next(side for side in rows if side.id == row.object)
+    neighbor, importance = neighbor_across(data, rules, near, neighbor_row)
     key = provisions.SEPARATION_KEYS[neighbor]
     return ClearanceCheck(
         clearance=row,
@@ -115,7 +119,7 @@ def check_clearance(
         required_m=provisions.required_separation(
             rules, neighbor, design_m=design_m, importance=importance
         ),
-        is_permitted=all(each.is_permitted for each in sides.values()),
+        is_permitted=all(side.is_permitted for side in sides.values()),
     )
 
 

@@ -23,8 +23,8 @@ def mu_words(law: Friction) -> str:
     sliding = coefficient(law.mu_slow)
     if law.is_by_velocity:
         sliding += f" to {coefficient(law.mu_fast)} with velocity"
-    rest = "" if law.mu_static == law.mu_slow else f", {coefficient(law.mu_static)} at rest"
-    return f"{sliding}{rest}"
+    static_text = "" if law.mu_static == law.mu_slow else f", {coefficient(law.mu_static)} at rest"
+    return f"{sliding}{static_text}"
 
 
 def mus_words(arrays: Sequence[Array]) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain
 
 from report.assessment.design.arrays import ArrayAssessment
 from report.project.model.array import Array
@@ -80,7 +81,7 @@ class LinkedArray:
     @property
     def runs(self) -> tuple[LinkedRun, ...]:
         """Every run under every motion."""
-        return tuple(run for motion in self.motions for run in motion.runs)
+        return tuple(chain.from_iterable(motion.runs for motion in self.motions))
 
     @property
     def stretch_m(self) -> float:

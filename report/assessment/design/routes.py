@@ -109,10 +109,10 @@ def statistic_basis(data: ProjectInput) -> Basis | None:
 def lacking_motions(rules: RuleSet, basis: Basis | None, count: int) -> str:
     """Return which statistic the motions are too few for; nothing where there are enough."""
     asked = Basis.LARGEST_FACTORED if basis is None else basis
-    least = provisions.minimum_motions(rules, asked)
-    if count >= least:
+    minimum = provisions.minimum_motions(rules, asked)
+    if count >= minimum:
         return ""
-    return f"the statistic '{asked}' requires at least {least:.0f} motions; {count} are listed"
+    return f"the statistic '{asked}' requires at least {minimum:.0f} motions; {count} are listed"
 
 
 def interconnection_n(data: ProjectInput, rules: RuleSet, array: Array) -> float:

@@ -48,10 +48,14 @@ def under_code(data: ProjectInput) -> ProjectInput:
     name = REFERENCED.get(site.code_text, site.rule_set)
     if name == site.rule_set:
         return data
-    values = {f"{symbol}_g": value for symbol, value in asdict(site.parameters).items()}
+    values: dict[str, object] = {
+        f"{symbol}_g": value for symbol, value in asdict(site.parameters).items()
+    }
     # With what it derives: another edition may not.
-    other = site.model_copy(update=values | {"rule_set": RuleSetName(name), "edition_name": None})
-    return as_adopted(data.model_copy(update={"site": other}))
+    site_of_code = site.model_copy(
+        update=values | {"rule_set": RuleSetName(name), "edition_name": None}
+    )
+    return as_adopted(data.model_copy(update={"site": site_of_code}))
 
 
 def mark_of(value: float, adopted: float) -> str:

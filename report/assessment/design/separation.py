@@ -1,4 +1,8 @@
-"""The separation that a rule set requires beside an array, by what is across the gap."""
+"""The separation that a rule set requires beside an array, by what is across the gap.
+
+A factor times the design displacement, times an importance factor where that is not in the
+displacement: I_e at roof edges, elsewhere the larger I_p of the array and what is across the gap.
+"""
 
 from __future__ import annotations
 
@@ -69,19 +73,19 @@ def importance_factor(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: fl
     return i_e if neighbor.is_edge else i_p
 
 
-def are_alike(first: Array, other: Array) -> bool:
+def are_alike(first: Array, second: Array) -> bool:
     """Whether two arrays slide alike: construction, slope, friction and downslope direction."""
     return (
         # Arrays of one construction, slope and friction move together under one roof motion.
-        first.construction.casefold() == other.construction.casefold()
-        and math.isclose(first.slope_rad, other.slope_rad, abs_tol=ALIKE_SLOPE_RAD)
-        and first.friction == other.friction
-        and _is_parallel(first, other)
+        first.construction.casefold() == second.construction.casefold()
+        and math.isclose(first.slope_rad, second.slope_rad, abs_tol=ALIKE_SLOPE_RAD)
+        and first.friction == second.friction
+        and _is_parallel(first, second)
     )
 
 
-def _is_parallel(first: Array, other: Array) -> bool:
-    turn = (first.downslope_deg - other.downslope_deg) % 360.0
+def _is_parallel(first: Array, second: Array) -> bool:
+    turn = (first.downslope_deg - second.downslope_deg) % 360.0
     return min(turn, 360.0 - turn) <= ALIKE_DEG
 
 
@@ -103,10 +107,9 @@ def largest_separation_m(
     designs = [array.permitted_m for array in arrays]
     i_ps = *(array.i_p for array in data.arrays), *(item.i_p for item in data.objects)
     importance = max(data.site.i_e, *i_ps)
+    # At least 0.0, for a minimum separation, which an array that rests must keep as well.
+    largest_m = max((design_m for design_m in designs if not math.isnan(design_m)), default=0.0)
     return max(
-        provisions.required_separation(rules, neighbor, design_m=each_m, importance=importance)
-        # With 0.0 for a minimum separation, which an array that rests must keep as well.
-        for each_m in (0.0, *designs)
-        if not math.isnan(each_m)
+        provisions.required_separation(rules, neighbor, design_m=largest_m, importance=importance)
         for neighbor in Neighbor
     )

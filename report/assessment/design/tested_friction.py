@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from itertools import chain
 
 from report.assessment.design.words import NOT_GIVEN
 from report.project.check.friction_faults import MU_TOLERANCE
@@ -37,11 +38,12 @@ def tested(data: ProjectInput) -> tuple[Series, ...]:
 def is_complete(data: ProjectInput, report: str) -> bool:
     """Whether the runs of a report are wet and dry, and three or more at each velocity."""
     parts = [tests for tests in tested(data) if tests.report == report]
-    return {tests.surface for tests in parts} == set(Surface) and all(
-        # Runs without a velocity, which are the last, are no repeats of each other.
-        len(repeats.runs) >= LEAST_RUNS and not math.isnan(repeats.velocity_mps)
-        for tests in parts
-        for repeats in tests.repeats
+    if {tests.surface for tests in parts} != set(Surface):
+        return False
+    repeats = chain.from_iterable(tests.repeats for tests in parts)
+    # Runs without a velocity, which are the last, are no repeats of each other.
+    return all(
+        len(repeat.runs) >= LEAST_RUNS and not math.isnan(repeat.velocity_mps) for repeat in repeats
     )
 
 

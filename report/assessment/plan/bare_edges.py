@@ -71,12 +71,12 @@ def _bare(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tuple[
     from shapely import LineString
     from shapely.ops import substring
 
-    line, at = LineString(side), 0.0
+    line, covered_to = LineString(side), 0.0
     for start, end in [*sorted(_covered(side, strips)), (line.length, line.length)]:
-        if start - at > EDGE_STRIP_M:
-            first, last = substring(line, at, start).coords
+        if start - covered_to > EDGE_STRIP_M:
+            first, last = substring(line, covered_to, start).coords
             yield first, last
-        at = max(at, end)
+        covered_to = max(covered_to, end)
 
 
 def _covered(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tuple[float, float]]:

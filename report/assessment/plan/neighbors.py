@@ -1,5 +1,9 @@
 """What the plan shows near each array, and whether the workbook gives a clearance to it.
 
+    +----+          +-------+
+    | A1 |<-- gap ->| RTU-1 |    near: gap <= reach, twice the larger design displacement
+    +----+          +-------+    short: no row of Clearances, and gap < required separation
+
 Measures from the plan alone; decides nothing. Read `plan_pairs` first.
 """
 
@@ -164,12 +168,12 @@ class PlanNeighbor(ComparedGap):
     def shortcomings(self) -> tuple[tuple[str, str], ...]:
         """Return each cell where it is missing or contradicts the plan, with what is to be done."""
         if self.is_missing:
-            what = (
+            remedy = (
                 "add the edge as an object, and a clearance to it"
                 if self.kind is NearbyKind.BARE_EDGE
                 else "add a row with their clearance, or run roofslip plan clearances"
             )
-            return ((self.to_add, what),)
+            return ((self.to_add, remedy),)
         are_boxes = isinstance(self.near, Rectangle) and isinstance(self.far, Rectangle)
         shortcomings = []
         for row in self.contradictions:
@@ -188,10 +192,10 @@ def plan_pairs(
     required: Callable[[PlanNeighbor], tuple[float, str]],
 ) -> tuple[PlanNeighbor, ...]:
     """Return each array beside each other shape in plan, with the separation [m] it requires."""
-    pairs = [(each, *required(each)) for each in _pairs(data, reaches, addresses)]
+    pairs = [(near, *required(near)) for near in _pairs(data, reaches, addresses)]
     return tuple(
-        each if math.isnan(value_m) else replace(each, required_m=value_m, mark=mark)
-        for each, value_m, mark in pairs
+        near if math.isnan(value_m) else replace(near, required_m=value_m, mark=mark)
+        for near, value_m, mark in pairs
     )
 
 
@@ -263,10 +267,10 @@ def direction_of(near: PlanNeighbor, downslope_deg: float) -> Direction:
     # No displacement whose component in that direction is less than the distance closes the gap.
     for turns, direction in enumerate(_WAYS):
         angle = math.radians(downslope_deg + 90.0 * turns)
-        far, own = (
+        far, near_end = (
             [x * math.cos(angle) + y * math.sin(angle) for x, y in shape.points]
             for shape in (near.far, near.near)
         )
-        if min(far) - max(own) >= near.gap_m - NOISE_M > 0.0:
+        if min(far) - max(near_end) >= near.gap_m - NOISE_M > 0.0:
             return direction
     return Direction.ANY

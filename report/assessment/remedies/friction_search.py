@@ -34,17 +34,18 @@ def below(value: float) -> int:
 def search(satisfies: Callable[[int], bool], start: int, end: int) -> tuple[int, ...]:
     """Walk from one value toward another, and return those before the first failure, in order.
 
-    Each pass goes on from the last value of the one before, in smaller steps: no value tried
-    between the start and the last one returned fails. Empty if the start fails.
+    Each pass goes on from the last value of the one before, in smaller steps: where 43 and more
+    satisfy, a walk from 60 toward 40 returns 60, 55, 50, 45, 44, 43. No value tried between the
+    start and the last one returned fails. Empty if the start fails.
     """
     if not satisfies(start):
         return ()
     way = 1 if end >= start else -1
-    held = [start]
+    satisfied = [start]
     for step in STRIDES:
-        while (following := held[-1] + way * step) * way <= end * way and satisfies(following):
-            held.append(following)
-    return tuple(held)
+        while (following := satisfied[-1] + way * step) * way <= end * way and satisfies(following):
+            satisfied.append(following)
+    return tuple(satisfied)
 
 
 class Trials:

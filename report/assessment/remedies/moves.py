@@ -1,5 +1,8 @@
 """Moves of an array along an axis of the plan that widen a gap; without a place, the gap alone.
 
+A clearance that lacks 0.53 m: move the array 0.53 m away along one axis of the plan, where the plan
+has room, or provide 0.53 m more where it has no place in plan.
+
 Assesses nothing: `report.assessment.remedies.remedies` does. Read `moves`.
 """
 
@@ -38,9 +41,9 @@ def moves(assessment: Assessment, gap: ComparedGap, lack_m: float) -> Iterator[t
         shapes[gap.other] = gap.far
     if isinstance(gap, ClearanceCheck) and not shapes.keys() >= set(gap.between):
         # Not in plan: the clearance alone is entered.
-        number = next(k for k, each in enumerate(assessment.clearances) if each is gap)
-        more = pair(lack_m, Quantity.SIZE, data.us_first, no_less)
-        words = f"Provide {more} more from {' to '.join(gap.between)}"
+        number = next(k for k, clearance in enumerate(assessment.clearances) if clearance is gap)
+        length = pair(lack_m, Quantity.SIZE, data.us_first, no_less)
+        words = f"Provide {length} more from {' to '.join(gap.between)}"
         yield words, partial(_widened, number=number, by_m=lack_m + _NOISE_M)
         return
     ids = [array.id for array in data.arrays]
@@ -114,16 +117,16 @@ def _widened(data: ProjectInput, *, number: int, by_m: float) -> ProjectInput:
 def _moved(data: ProjectInput, *, name: str, by: Point) -> ProjectInput:
     """Return an input with an array moved, and its clearances as the plan then shows them."""
     shapes = data.shapes
-    old, new = shapes[name], shifted(shapes[name], by)
+    before, after = shapes[name], shifted(shapes[name], by)
 
     def provided(row: Clearance) -> Clearance:
         other = row.object if row.array == name else row.array
         if name not in (row.array, row.object) or other not in shapes:
             return row
-        change_m = gap_m(new, shapes[other]) - gap_m(old, shapes[other])
+        change_m = gap_m(after, shapes[other]) - gap_m(before, shapes[other])
         return row.model_copy(update={"provided_m": row.provided_m + change_m})
 
-    sides = {side: getattr(new, side) for side in SIDES} if isinstance(new, Rectangle) else {}
+    sides = {side: getattr(after, side) for side in SIDES} if isinstance(after, Rectangle) else {}
     return data.changed(
         arrays=tuple(
             row.model_copy(update=sides) if row.id == name else row for row in data.arrays

@@ -12,6 +12,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Seq
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property, partial, reduce
+from itertools import chain
 
 from report.assessment.assess import entered, refused
 from report.assessment.assessment import Assessment
@@ -119,22 +120,23 @@ def remedies(assessment: Assessment, *, may_run: bool = True) -> Remedies:
     return replace(_enough(state, own), own=own)
 
 
-def _enough(state: _State, own: Iterable[Remedy]) -> Remedies:
+def _enough(state: _State, remedies: Iterable[Remedy]) -> Remedies:
     """Return a change that is enough by itself, or else those that are found in turn."""
     if any(check.id in _OF_THE_BUILDING for check in state.failed):
         return Remedies()
-    if alone := next((each for each in own if each.is_enough), None):
+    alone = next((remedy for remedy in remedies if remedy.is_enough), None)
+    if alone:
         return Remedies(together=(alone,), done=alone.done)
-    now, taken = state, list[Remedy]()
-    while now.failed:
-        ways = (list(now.ways(check)) for check in now.failed)
+    state_now, taken = state, list[Remedy]()
+    while state_now.failed:
+        ways = (list(state_now.ways(check)) for check in state_now.failed)
         found = next(filter(None, ways), None)
         if found is None or len(taken) == MOST:
             return Remedies()
         # Of those that satisfy the check, the one with which the least is NG.
-        remedy, now = min(found, key=lambda way: len(way[1].failed))
+        remedy, state_now = min(found, key=lambda way: len(way[1].failed))
         taken.append(remedy)
-    done = now.done
+    done = state_now.done
     for each in tuple(taken):
         fewer = [other for other in taken if other is not each]
         data = reduce(lambda data, other: other.change(data), fewer, state.done.project)
@@ -165,16 +167,16 @@ class _State:
         self, check: Check, told: Iterable[RemedyKind] = ()
     ) -> Iterator[tuple[Remedy, _State]]:
         """Yield a change of each kind that satisfies a check and makes nothing NG that was OK."""
-        ok = {_key(each) for each in self.done.checks if each.is_satisfied}
+        ok = {_key(other) for other in self.done.checks if other.is_satisfied}
         found = {*told}
-        for remedy in (each for way in _WAYS.get(check.id, ()) for each in way(self, check)):
+        for remedy in chain.from_iterable(way(self, check) for way in _WAYS.get(check.id, ())):
             if remedy.kind in found:
                 continue
             is_review = remedy.change is _reviewed  # the same of every check
             done = self.reviewed if is_review else entered(self.done, remedy.change(self.data))
             now = done and _State(done, self._may_run)
-            wanted = ok | {*map(_key, remedy.checks)}
-            if now and wanted.isdisjoint(map(_key, now.failed)):
+            must_be_ok = ok | {*map(_key, remedy.checks)}
+            if now and must_be_ok.isdisjoint(map(_key, now.failed)):
                 found.add(remedy.kind)
                 yield remedy, now
 
@@ -230,11 +232,12 @@ def _review(state: _State, check: Check) -> Iterator[Remedy]:
     done = state.reviewed
     if done is None:
         return
-    left = {_key(each) for each in done.checks if each.verdict is Verdict.NG}
-    cured = tuple(each for each in state.failed if each.arrays and _key(each) not in left)
+    still_ng = {_key(each) for each in done.checks if each.verdict is Verdict.NG}
+    cured = tuple(each for each in state.failed if each.arrays and _key(each) not in still_ng)
     show = partial(pair, quantity=Quantity.DISPLACEMENT, us_first=state.data.us_first, show=no_less)
     designs = dict[str, str]()
-    for name in sorted({name for each in cured for name in each.arrays}, key=name_order):
+    names = set(chain.from_iterable(cured_check.arrays for cured_check in cured))
+    for name in sorted(names, key=name_order):
         given_m, value_m = (by_id(each.arrays, name).permitted_m for each in (state.done, done))
         if math.isnan(given_m) or value_m < given_m:
             instead = "" if math.isnan(given_m) else f" instead of {show(given_m)}"
@@ -283,11 +286,11 @@ def _friction(state: _State, check: Check, mus: Mapping[str, float]) -> Remedy:
 
 def _least_mu(trials: Trials, row: Clearance | None) -> float:
     """Return the least friction coefficient with which an array satisfies; NaN for none."""
-    end, most = above(trials.array.array.mu), _most_mu(trials)
-    if end > most or not _may_help(trials, row):
+    end, limit = above(trials.array.array.mu), _most_mu(trials)
+    if end > limit or not _may_help(trials, row):
         return math.nan
-    held = search(lambda mu: trials.satisfies(row, mu=mu), most, end)
-    return held[-1] / 100 if held else math.nan
+    satisfied = search(lambda mu: trials.satisfies(row, mu=mu), limit, end)
+    return satisfied[-1] / 100 if satisfied else math.nan
 
 
 def _most_mu(trials: Trials) -> int:
@@ -323,13 +326,13 @@ _VALUES = {
 }
 
 
-def _needed(check: Check, given: float) -> Amount:
+def _needed(check: Check, entered: float) -> Amount:
     """Return the value with which a check is satisfied."""
     if check.id == "roof_capacity" and isinstance(check.found, Amount):
         return demand(check.found.value, Quantity.PRESSURE)
     if check.id == "tipping" and isinstance(check.found, Amount):
         # Divided by a ratio and multiplied again it is no more than its limit.
-        return capacity(given / check.found.value * (1.0 - _NOISE), Quantity.SIZE)
+        return capacity(entered / check.found.value * (1.0 - _NOISE), Quantity.SIZE)
     return replace(check.limit, mark="") if isinstance(check.limit, Amount) else demand(math.nan)
 
 
@@ -340,10 +343,10 @@ def _values(state: _State, check: Check) -> Iterator[Remedy]:
     checks = tuple(each for each in state.failed if each.id == check.id)
     values, texts = dict[str, float](), dict[str, tuple[str, str]]()
     for each in checks:
-        given = getattr(by_id(state.done.arrays, each.subject).array, field)
-        needed = _needed(each, given)
+        entered = getattr(by_id(state.done.arrays, each.subject).array, field)
+        needed = _needed(each, entered)
         values[each.subject] = needed.value
-        amounts = entered_amount(given, needed.quantity), needed
+        amounts = entered_amount(entered, needed.quantity), needed
         texts[each.subject] = amount_texts(*amounts, state.data.us_first, is_at_least=is_least)
     alike = grouped_by(texts, texts.__getitem__)
     parts = [f"{wanted} for {ranged(of)} (entered: {had})" for (had, wanted), of in alike.items()]

@@ -54,6 +54,6 @@ def _others(used: BuildingInput) -> Iterator[BuildingInput]:
             yield used.model_copy(update={"damping_percent": percent})
 
 
-def _prd_m(array: Array, data: ProjectInput, of: tuple[MotionInput, PreparedMotion]) -> float:
-    row, prepared = of
+def _prd_m(array: Array, data: ProjectInput, motion: tuple[MotionInput, PreparedMotion]) -> float:
+    row, prepared = motion
     return run_motion(array, through_building(data, row, prepared)).peak_m(Direction.ANY)

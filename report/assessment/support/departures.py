@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from report.assessment.support.spectra import Spectra
+from report.text.grouping import grouped_by
 
 # Mean of the motions / target above which the motions are said to exceed it: in no code.
 MOST_EXCESS = 1.30
@@ -33,34 +34,32 @@ class Departure:
 
 def departures(spectra: Sequence[Spectra]) -> tuple[Departure, ...]:
     """Return where the mean of the motions misses its target, from 0.1 to 33.3 Hz, by target."""
-    places = dict.fromkeys((part.is_ground, part.target.name) for part in spectra)
-    rows = (
-        _departure([s for s in spectra if (s.is_ground, s.target.name) == place], is_short)
-        for place in places
-        for is_short in (True, False)
-    )
-    return tuple(each for each in rows if each is not None)
+    targets = grouped_by(spectra, lambda part: (part.is_ground, part.target.name))
+    found = []
+    for parts in targets.values():
+        found += [_departure(parts, is_short=True), _departure(parts, is_short=False)]
+    return tuple(departure for departure in found if departure is not None)
 
 
-def _departure(parts: Sequence[Spectra], is_short: bool) -> Departure | None:
-    ratios = [(part, part.mean_g / part.target_g) for part in parts]
-    beyond = [
-        (part, np.where(is_beyond, ratio, np.nan))
-        for part, ratio in ratios  # NaN without a target: beyond no limit
-        if (is_beyond := ratio < LEAST_MEAN if is_short else ratio > MOST_EXCESS).any()
-    ]
+def _departure(parts: Sequence[Spectra], *, is_short: bool) -> Departure | None:
+    beyond = []
+    for part in parts:
+        ratio = part.mean_g / part.target_g  # NaN without a target: beyond no limit
+        is_beyond = ratio < LEAST_MEAN if is_short else ratio > MOST_EXCESS
+        if is_beyond.any():
+            beyond.append((part, np.where(is_beyond, ratio, np.nan)))
     if not beyond:
         return None
     farthest = np.nanmin if is_short else np.nanmax
-    beyond.sort(key=lambda each: float(farthest(each[1])), reverse=not is_short)
+    beyond.sort(key=lambda found: float(farthest(found[1])), reverse=not is_short)
     worst, ratio = beyond[0]
-    at = int(np.flatnonzero(ratio == farthest(ratio))[0])
+    index = int(np.flatnonzero(ratio == farthest(ratio))[0])
     periods = np.concatenate([part.periods_s[np.isfinite(ratio)] for part, ratio in beyond])
     return Departure(
         titles=tuple(part.title for part, _ in beyond),
         target=worst.target.name,
-        ratio=float(ratio[at]),
-        period_s=float(worst.periods_s[at]),
+        ratio=float(ratio[index]),
+        period_s=float(worst.periods_s[index]),
         from_s=float(periods.min()),
         to_s=float(periods.max()),
         is_short=is_short,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from itertools import chain, product
 
 from report.assessment.design.arrays import ArrayAssessment
 from report.project.model.choices import Direction
@@ -28,7 +29,7 @@ def design_envelope(array: ArrayAssessment) -> Outline:
 
 def runs_envelope(array: ArrayAssessment) -> Outline:
     """Return the outline of an array in all of its runs; empty if one has no displacement."""
-    moves = [point for run in array.runs for point in _region(run)]
+    moves = list(chain.from_iterable(map(_region, array.runs)))
     if not moves or any(math.isnan(along + across) for along, across in moves):
         return ()
     downslope = math.radians(array.array.downslope_deg)
@@ -57,16 +58,16 @@ def _circle(radius_m: float) -> Outline:
 
 def _cut(region: Outline, normal: Point, limit: float) -> Outline:
     """Return the part of a convex region up to a limit along a normal."""
-    kept: list[Point] = []
+    inside: list[Point] = []
     for (x0, y0), (x1, y1) in zip(region, (*region[1:], *region[:1]), strict=True):
         over0 = x0 * normal[0] + y0 * normal[1] - limit
         over1 = x1 * normal[0] + y1 * normal[1] - limit
         if not over0 > 0.0:
-            kept.append((x0, y0))
+            inside.append((x0, y0))
         if over0 * over1 < 0.0:
             share = over0 / (over0 - over1)
-            kept.append((x0 + share * (x1 - x0), y0 + share * (y1 - y0)))
-    return tuple(kept)
+            inside.append((x0 + share * (x1 - x0), y0 + share * (y1 - y0)))
+    return tuple(inside)
 
 
 def _swept(shape: Shape, moves: Sequence[Point]) -> Outline:
@@ -78,7 +79,7 @@ def _swept(shape: Shape, moves: Sequence[Point]) -> Outline:
 
 def _moved(points: Sequence[Point], moves: Sequence[Point]) -> Outline:
     """Return the convex hull of points at all displacements."""
-    return hull((x + dx, y + dy) for x, y in points for dx, dy in moves)
+    return hull((x + dx, y + dy) for (x, y), (dx, dy) in product(points, moves))
 
 
 def hull(points: Iterable[Point]) -> Outline:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import chain
 
 from report.assessment.assessment import Assessment
 from report.runs import run_motion
@@ -31,13 +32,13 @@ def beyond_corners(assessment: Assessment) -> tuple[Beyond, ...]:
     rows, governing = assessment.project.motions, assessment.governing
     corners = {row.id: row.highpass_hz or math.nan for row in rows}
     as_run_m = {run.motion.id: run.governing.prd_m for run in governing.motions}
+    unfiltered = chain.from_iterable(motion.unfiltered for motion in assessment.shaking.prepared)
     return tuple(
         Beyond(
-            motion_id=bare.id,
-            corner_hz=corners[bare.id],
-            filtered_m=as_run_m[bare.id],
-            unfiltered_m=run_motion(governing.array, bare).governing.prd_m,
+            motion_id=motion.id,
+            corner_hz=corners[motion.id],
+            filtered_m=as_run_m[motion.id],
+            unfiltered_m=run_motion(governing.array, motion).governing.prd_m,
         )
-        for prepared in assessment.shaking.prepared
-        for bare in prepared.unfiltered
+        for motion in unfiltered
     )

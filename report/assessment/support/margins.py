@@ -1,4 +1,8 @@
-"""How far the friction of an array may fall before a clearance is not satisfied."""
+"""How far the friction of an array may fall before a clearance is not satisfied.
+
+From μ = 0.50 on, 0.45, 0.40 … are tried in the governing orientations until the clearance fails,
+then hundredths; the last value that all runs confirm is the margin.
+"""
 
 from __future__ import annotations
 
@@ -54,29 +58,29 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
     """Walk down in the governing orientations; from the last value that all runs confirm in all."""
     row, array = gap.clearance, trials.array
     as_given = check_alone(trials.assessment, array.id, array.displacement, row)
-    least, required, limited_by, mu = math.nan, math.nan, "—", array.array.mu
+    minimum_mu, required, limited_by, mu = math.nan, math.nan, "—", array.array.mu
     lowest = math.ceil(100.0 * LOWEST_SHARE * mu - 1e-6)
     if as_given.ok and is_final(array):
-        least, required, limited_by = mu, as_given.required_m, "search"
+        minimum_mu, required, limited_by = mu, as_given.required_m, "search"
         start = below(mu)
-        held = (
+        satisfied = (
             search(lambda k: trials.may_satisfy(row, mu=k), start, lowest)
             if start >= lowest > 0
             else ()
         )
         # The governing orientations refute at a quarter of the runs; only all of them confirm.
-        confirmed = next((k for k in reversed(held) if trials.satisfies(row, mu=k)), 0)
+        confirmed = next((k for k in reversed(satisfied) if trials.satisfies(row, mu=k)), 0)
         while confirmed > lowest and trials.satisfies(row, mu=confirmed - 1):
             confirmed -= 1
         if confirmed:
-            least, required = confirmed / 100, trials.required_m(row, mu=confirmed)
+            minimum_mu, required = confirmed / 100, trials.required_m(row, mu=confirmed)
         if lowest < (following := confirmed or start + 1):
             limited_by = trials.failure(row, mu=following - 1)
     return Margin(
         number=number,
         gap=gap,
         array=array,
-        minimum_mu=least,
+        minimum_mu=minimum_mu,
         required_m=required,
         limited_by=limited_by,
         lowest_tried=lowest / 100,

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import chain, product
 
 import numpy as np
 
@@ -49,10 +50,10 @@ def surface(assessment: Assessment, item: ArrayAssessment) -> ResponseSurface:
         room=1.0,
     )
     slopes = np.radians(degrees)
-    cells = [(slope, mu) for slope in slopes.tolist() for mu in mus.tolist()]
+    cells = list(product(slopes.tolist(), mus.tolist()))
     results = assessment.runs.map(partial(_cell, item), cells)
     means = [sum(run.prd_m for run in cell) / len(cell) for cell in results]
-    statuses = [run.status for cell in results for run in cell]
+    statuses = [run.status for run in chain.from_iterable(results)]
     return ResponseSurface(
         array=item,
         mus=mus,
@@ -64,16 +65,14 @@ def surface(assessment: Assessment, item: ArrayAssessment) -> ResponseSurface:
     )
 
 
-def _axis(
-    values: Sequence[float], wanted: float, count: int, *, unit: float, room: float
-) -> Floats:
+def _axis(values: Sequence[float], value: float, count: int, *, unit: float, room: float) -> Floats:
     """Return evenly spaced values around those of the arrays, the nearest replaced by one."""
     # Beyond the arrays on both sides: a point at the rim says nothing of what follows.
     low = unit * math.floor(0.8 * min(values) / unit)
     high = 1.25 * max(values) + room
     step = unit * math.ceil((high - low) / (count - 1) / unit)
     axis = np.array([low + k * step for k in range(count)])
-    axis[np.argmin(np.abs(axis - wanted))] = wanted
+    axis[np.argmin(np.abs(axis - value))] = value
     return axis
 
 
@@ -92,7 +91,7 @@ def _slid(scene: Scene) -> SlideResult:
     return two_axes.run(scene, TOLERANCE)
 
 
-def _is_like(first: Array, other: Array) -> bool:
+def _is_like(first: Array, second: Array) -> bool:
     """Whether the friction of two arrays differs by a factor only."""
 
     def law(array: Array) -> tuple[float, ...]:
@@ -102,5 +101,5 @@ def _is_like(first: Array, other: Array) -> bool:
         return (f.mu_fast / f.mu_slow, f.mu_static / f.mu_slow, f.rate_s_per_m)
 
     return all(
-        math.isclose(a, b, rel_tol=1e-9) for a, b in zip(law(first), law(other), strict=True)
+        math.isclose(a, b, rel_tol=1e-9) for a, b in zip(law(first), law(second), strict=True)
     )

@@ -29,15 +29,13 @@ class Accuracy:
     @property
     def newly_limited(self) -> tuple[Check, ...]:
         """Limits of the routes taken that are satisfied as given but not with less friction."""
-        pairs = zip(self.entered.arrays, self.at_reduced_friction.arrays, strict=True)
-        return tuple(
-            of_limit(check, after.id)
-            for before, after in pairs
-            if all(check.ok for check in before.limits.required)
-            # With less friction another route may be taken, whose limits are other ones.
-            for check in replace(after.limits, route=before.route).required
-            if not check.ok
-        )
+        found: list[Check] = []
+        for before, after in zip(self.entered.arrays, self.at_reduced_friction.arrays, strict=True):
+            if all(limit.ok for limit in before.limits.required):
+                # With less friction another route may be taken, whose limits are other ones.
+                limits = replace(after.limits, route=before.route).required
+                found += [of_limit(limit, after.id) for limit in limits if not limit.ok]
+        return tuple(found)
 
 
 def accuracy(assessment: Assessment) -> Accuracy:

@@ -50,8 +50,8 @@ class Spectra:
         """Smallest ratio of a motion to the target, its id and period [s]; inf without a target."""
         ratio = self.sa_g / self.target_g
         ratio = np.where(np.isnan(ratio), np.inf, ratio)
-        motion, at = np.unravel_index(ratio.argmin(), ratio.shape)
-        return float(ratio[motion, at]), self.ids[motion], float(self.periods_s[at])
+        motion, index = np.unravel_index(ratio.argmin(), ratio.shape)
+        return float(ratio[motion, index]), self.ids[motion], float(self.periods_s[index])
 
 
 def spectra(assessment: Assessment) -> tuple[Spectra, ...]:
@@ -76,7 +76,7 @@ def spectra(assessment: Assessment) -> tuple[Spectra, ...]:
         Spectra(
             ids=tuple(record.name for record in records),
             periods_s=PERIODS_S,
-            sa_g=np.array([_ordinates(each.a_mps2, each.dt_s) for each in records]) / G_MPS2,
+            sa_g=np.array([_ordinates(record.a_mps2, record.dt_s) for record in records]) / G_MPS2,
             target=target,
             title=title,
             is_ground=is_ground,

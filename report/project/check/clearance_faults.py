@@ -41,13 +41,13 @@ def clearance_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
 def _room(
     index: int, row: InputRow, shapes: Mapping[str, Shape], inputs: Inputs, where: Where
 ) -> Iterator[Finding]:
-    array, other, provided = row.get("array"), row.get("object"), row.get("provided_m")
-    if array is not None and array == other:
-        text = f"object is '{other}', the array itself"
-        wanted = "give an object or another array"
-        yield Finding.error(Place("clearances", index, "object"), text, wanted)
+    array, neighbor, provided = row.get("array"), row.get("object"), row.get("provided_m")
+    if array is not None and array == neighbor:
+        text = f"object is '{neighbor}', the array itself"
+        remedy = "give an object or another array"
+        yield Finding.error(Place("clearances", index, "object"), text, remedy)
         return
-    a, b = (shapes.get(str(name)) for name in (array, other))
+    a, b = (shapes.get(str(name)) for name in (array, neighbor))
     if a is None or b is None or provided is None:
         return
     gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
@@ -56,16 +56,16 @@ def _room(
         return
     boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
     noun = "rectangles" if boxes else "outlines"
-    stated, most = (
+    stated, gap_text = (
         pair(max(m, 0.0), Quantity.SIZE, us_first(inputs), no_more) for m in (provided, gap)
     )
-    at, text = (
-        places_of(inputs, (str(array), str(other)), where),
+    cells, text = (
+        places_of(inputs, (str(array), str(neighbor)), where),
         f"provided clearance is {stated}",
     )
     if gap < -1e-9:
-        text += f", but {array} and {other} overlap in plan"
-        yield Finding.error(place, text, f"correct their {noun} in {at}")
+        text += f", but {array} and {neighbor} overlap in plan"
+        yield Finding.error(place, text, f"correct their {noun} in {cells}")
     else:
-        text += f", but {array} and {other} are {most} apart in plan"
-        yield Finding.error(place, text, f"reduce it, or correct the {noun} in {at}")
+        text += f", but {array} and {neighbor} are {gap_text} apart in plan"
+        yield Finding.error(place, text, f"reduce it, or correct the {noun} in {cells}")

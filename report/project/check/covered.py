@@ -1,5 +1,8 @@
 """What each confirmation covered: its date with a short hash of each sheet, in the cell beside it.
 
+Beside the date of review, `2026-03-01: Site 3f2a91, Arrays 01b03f`: once a cell of Arrays is
+another one, the review is not of these inputs.
+
 Reads no file and writes none. Read `CONFIRMATIONS`, then `to_record` and `outdated`.
 """
 
@@ -66,27 +69,27 @@ COVERED = frozenset(covered for *_, covered, _ in CONFIRMATIONS)
 def to_record(data: ProjectInput, records: Sequence[str]) -> Mapping[Place, str]:
     """Return what confirmations cover whose date is not on record, by cell; records with hashes."""
     return {
-        place: f"{date}: {', '.join(f'{sheet} {short}' for sheet, short in now.items())}"
-        for place, date, recorded, now, _ in _dated(data, records)
-        if now and not recorded
+        place: f"{date}: {', '.join(f'{sheet} {short}' for sheet, short in hashes.items())}"
+        for place, date, recorded, hashes, _ in _dated(data, records)
+        if hashes and not recorded
     }
 
 
 def outdated(data: ProjectInput, records: Sequence[str]) -> ProjectInput:
     """Return an input that knows which sheets have changed since a confirmation covered them."""
     changed = {}
-    for place, _, recorded, now, earlier in _dated(data, records):
+    for place, _, recorded, hashes, earlier in _dated(data, records):
         then = dict(part.rpartition(" ")[::2] for part in recorded.split(", "))
         # A record is of its own version, with which it differs least.
-        other = min(_changed(then, now), _changed(then, earlier), key=len)
-        if recorded and other:
-            changed[place.section] = f"sheet{'s' * (len(other) > 1)} {', '.join(other)}"
+        sheets = min(_changed(then, hashes), _changed(then, earlier), key=len)
+        if recorded and sheets:
+            changed[place.section] = f"sheet{'s' * (len(sheets) > 1)} {', '.join(sheets)}"
     return data.model_copy(update={"changed_sheets": tuple(changed.items())})
 
 
-def _changed(then: _Hashes, now: _Hashes) -> Sequence[str]:
+def _changed(then: _Hashes, hashes: _Hashes) -> Sequence[str]:
     titles = dict.fromkeys(section.sheet for section in SECTIONS)
-    return [title for title in titles if then.get(title) != now.get(title)]
+    return [title for title in titles if then.get(title) != hashes.get(title)]
 
 
 def _dated(
@@ -101,13 +104,13 @@ def _dated(
         date = getattr(block, dated)
         # A review that is not stated covers nothing, whatever its date.
         if date and getattr(block, "peer_reviewed", True):
-            of, _, recorded = getattr(block, covered).partition(": ")
-            now = _hashes(covers, data, records)
+            recorded_date, _, recorded = getattr(block, covered).partition(": ")
+            hashes = _hashes(covers, data, records)
             # In the order of the rows.
             earlier = _hashes(covers, data, records, is_sorted=False)
             # With another date it is another confirmation, of the inputs as they are now.
-            recorded = recorded if of == str(date) else ""
-            yield Place(section, 0, covered), date, recorded, now, earlier
+            recorded = recorded if recorded_date == str(date) else ""
+            yield Place(section, 0, covered), date, recorded, hashes, earlier
 
 
 def _hashes(
@@ -124,8 +127,8 @@ def _hashes(
         # What was measured or entered needs no confirmation of the drawing.
         if key == "clearances":
             rows = [row for row in rows if row.source is ClearanceSource.DRAWING]
-        of = {name: SECTION[key].sheet_of(name) for name in sorted(fields)}
-        for sheet, together in grouped_by(of, of.__getitem__).items():
+        sheet_of_field = {name: SECTION[key].sheet_of(name) for name in sorted(fields)}
+        for sheet, together in grouped_by(sheet_of_field, sheet_of_field.__getitem__).items():
             hashes = [*filter(None, (_line(key, row, together) for row in rows))]
             # The records themselves: a file may change under the same name.
             hashes += records if key == "motions" else ()
@@ -134,8 +137,8 @@ def _hashes(
                 rows_of = sorted(hashes) if is_sorted else hashes
                 lines.setdefault(sheet, []).extend([key, *rows_of])
     return {
-        sheet: hashlib.sha256("\n".join(each).encode()).hexdigest()[:_LETTERS]
-        for sheet, each in lines.items()
+        sheet: hashlib.sha256("\n".join(parts).encode()).hexdigest()[:_LETTERS]
+        for sheet, parts in lines.items()
     }
 
 
@@ -143,7 +146,7 @@ def _line(key: str, row: Frozen, fields: Sequence[str]) -> str:
     # SI with nine digits, so that a change of units is none; without defaults, so that a field that
     # a later version adds is none either.
     values = row.model_dump(include=set(fields), exclude_defaults=True)
-    order = {name: at for at, name in enumerate(ORDERS.get(key, ()))}
+    order = {name: number for number, name in enumerate(ORDERS.get(key, ()))}
     return "; ".join(
         f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {value}"
         for name, value in sorted(values.items(), key=lambda item: order.get(item[0], len(order)))

@@ -57,7 +57,10 @@ def faults(inputs: Inputs, where: Where) -> list[Finding]:
         _overrides,
         _smaller_events,
     )
-    return [fault for check in checks for fault in check(inputs, where)]
+    found: list[Finding] = []
+    for check in checks:
+        found += check(inputs, where)
+    return found
 
 
 def _tables(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -69,8 +72,13 @@ def _ids(inputs: Inputs, where: Where) -> Iterator[Finding]:
     # Arrays come first, so that a duplicate is reported at the object.
     for sections in UNIQUE:
         for place, value, first in repeated(column(inputs, sections, "id"), looks):
-            text, said = f"ID is '{value}', already used at {where(first)}", foreign_letters(value)
-            yield Finding.error(place, text + (f"; {said}" if said else ""), "give a unique ID")
+            text, foreign = (
+                f"ID is '{value}', already used at {where(first)}",
+                foreign_letters(value),
+            )
+            yield Finding.error(
+                place, text + (f"; {foreign}" if foreign else ""), "give a unique ID"
+            )
 
 
 def _arrays(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -84,9 +92,9 @@ def _slope(index: int, row: InputRow) -> Iterator[Finding]:
     if value is None or unit is None or math.degrees(slope_rad(value, unit)) < MAX_SLOPE_DEG:
         return
     # 45 degrees in each unit.
-    most = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
-    wanted = f"give 0 to less than {most} {unit}"
-    yield Finding.error(Place("arrays", index, "slope_value"), f"slope is {value:g} {unit}", wanted)
+    limit = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
+    remedy = f"give 0 to less than {limit} {unit}"
+    yield Finding.error(Place("arrays", index, "slope_value"), f"slope is {value:g} {unit}", remedy)
 
 
 def _friction(index: int, row: InputRow) -> Iterator[Finding]:
@@ -96,8 +104,8 @@ def _friction(index: int, row: InputRow) -> Iterator[Finding]:
     mu, static = row["mu"], row["mu_static"]
     if static is not None and static < mu:
         text = f"static friction is {static:g}"
-        wanted = f"give the friction coefficient, {mu:g}, or more"
-        yield Finding.error(Place("arrays", index, "mu_static"), text, wanted)
+        remedy = f"give the friction coefficient, {mu:g}, or more"
+        yield Finding.error(Place("arrays", index, "mu_static"), text, remedy)
 
 
 def _unknown(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -116,9 +124,9 @@ def _unknown(inputs: Inputs, where: Where) -> Iterator[Finding]:
 def _smaller_events(inputs: Inputs, where: Where) -> Iterator[Finding]:
     for place, text in column(inputs, ("options",), "smaller_events"):
         if text and not factors(text):
-            wanted = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
+            remedy = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
             fault = f"smaller events is '{cut(text)}'"
-            yield Finding.error(place, fault, f"{wanted}, such as 0.50, 0.25")
+            yield Finding.error(place, fault, f"{remedy}, such as 0.50, 0.25")
 
 
 def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -129,10 +137,10 @@ def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:
     for place, key in keys:
         if key not in names:
             near = nearest(key, names.values())
-            wanted = (
+            remedy = (
                 f"did you mean '{near}'?" if near else "choose a name from the list of the cell"
             )
-            yield Finding.error(place, f"provision is '{cut(key)}'", wanted)
+            yield Finding.error(place, f"provision is '{cut(key)}'", remedy)
         elif rules and key not in rules.values:
             fault = f"provision is '{names[key]}', which {rules.name} does not have"
             yield Finding.error(place, fault, "delete the row")

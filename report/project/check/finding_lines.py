@@ -23,7 +23,7 @@ def located(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iter
     for finding in findings:
         place = finding.place
         table = addresses.get(Place(place.section), _SHEETS[place.section])
-        cells = (addresses.get(each, table) for each in (place, *finding.others))
+        cells = (addresses.get(cell_place, table) for cell_place in (place, *finding.others))
         yield finding.cell or listed(cells, _MOST_CELLS)
 
 
@@ -36,7 +36,7 @@ def lines(findings: Iterable[Finding], addresses: Mapping[Place, str]) -> Iterat
         key = (finding.level, finding.place.section, finding.text, finding.reason, has_id)
         alike.setdefault(key, []).append((finding, cell))
     for group in alike.values():
-        cells, names = listed(cell for _, cell in group), listed(each.id for each, _ in group)
+        cells, names = listed(cell for _, cell in group), listed(finding.id for finding, _ in group)
         yield replace(group[0][0], cell=cells, id=names)
 
 

@@ -35,15 +35,13 @@ def _report(inputs: Inputs, row: InputRow) -> str:
 
 
 def _repeated(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    files = (
-        (
-            place,
-            (_report(inputs, row).casefold(), row["surface"], row.get("velocity_mps"), number),
-        )
-        for place, number in column(inputs, ("friction_runs",), "number")
-        if "surface" in (row := inputs["friction_runs"][place.row])
-    )
-    for place, (_, surface, _, number), first in repeated(files):
+    runs = []
+    for place, number in column(inputs, ("friction_runs",), "number"):
+        row = inputs["friction_runs"][place.row]
+        if "surface" in row:
+            report = _report(inputs, row).casefold()
+            runs.append((place, (report, row["surface"], row.get("velocity_mps"), number)))
+    for place, (_, surface, _, number), first in repeated(runs):
         text = f"run is {number}, {surface}, already given at {where(first)}"
         yield Finding.error(place, text, "give another number")
 
@@ -52,7 +50,7 @@ def _tested(inputs: Inputs) -> tuple[Series, ...]:
     """Return the runs as series; none if any run could not be read."""
     rows, fields = inputs["friction_runs"], FrictionTestRow.model_fields
     # A run that is missing would change every mean.
-    if any(field not in row for row in rows for field in fields):
+    if not all(row.keys() >= fields.keys() for row in rows):
         return ()
     report = _report(inputs, {})
     return series(FrictionTestRow.model_construct(**row).run(report) for row in rows)
@@ -76,17 +74,17 @@ def _first(inputs: Inputs, tests: Series, where: Where) -> str:
     return where(Place("friction_runs"))
 
 
-def _beyond(index: int, law: Friction, tests: Series, at: str) -> Iterator[Finding]:
+def _beyond(index: int, law: Friction, tests: Series, address: str) -> Iterator[Finding]:
     by_velocity = law.mu_fast != law.mu_slow
     mean, tested = tests.mean_of(law), tests.mean
     # PV1-2012: the average of the kinetic coefficients, of the worse of wet and dry.
     if mean > tested + MU_TOLERANCE:
         says = f"averages {mean:.3g} at the tested velocities" if by_velocity else f"is {mean:g}"
         text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
-        runs = f" of {len(tests.runs)} from {at})"
-        wanted = "reduce it" if by_velocity else f"give {tested:.3g} or less"
-        yield Finding.error(Place("arrays", index, "mu"), text + runs, wanted)
+        runs = f" of {len(tests.runs)} from {address})"
+        remedy = "reduce it" if by_velocity else f"give {tested:.3g} or less"
+        yield Finding.error(Place("arrays", index, "mu"), text + runs, remedy)
     if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
-        most = f"{tests.static_mean:.3g}"
-        text = f"static friction is {law.mu_static:g}; the tests give {most} ({tests.surface})"
-        yield Finding.error(Place("arrays", index, "mu_static"), text, f"give {most} or less")
+        static = f"{tests.static_mean:.3g}"
+        text = f"static friction is {law.mu_static:g}; the tests give {static} ({tests.surface})"
+        yield Finding.error(Place("arrays", index, "mu_static"), text, f"give {static} or less")

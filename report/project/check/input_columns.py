@@ -34,9 +34,11 @@ def suggestion(value: str, ids: Collection[str]) -> str:
     """Return in words which id may have been meant, or which there are."""
     same = next((name for name in ids if looks(name) == looks(value)), "")
     # Letters of two alphabets may look alike, so that the list would show the same name again.
-    if said := same and (foreign_letters(value) or foreign_letters(same)):
-        return f"it looks like '{same}', but {said}: retype it"
-    if close := nearest(value, ids):
+    foreign = same and (foreign_letters(value) or foreign_letters(same))
+    if foreign:
+        return f"it looks like '{same}', but {foreign}: retype it"
+    close = nearest(value, ids)
+    if close:
         return f"did you mean '{close}'?"
     names = ", ".join(list(ids)[:8])
     return f"give one of {names}" if names else "add it there first"

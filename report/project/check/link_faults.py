@@ -24,8 +24,8 @@ def link_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
         # A block of a row has one coefficient (`solver.sliding.row.BlockRow`).
         if "mu" in array and _by_speed(array):
             text = f"array is '{name}', which has high-velocity or static friction"
-            wanted = "leave both blank on the sheet Arrays, or delete this row"
-            yield Finding.error(place, text, wanted)
+            remedy = "leave both blank on the sheet Arrays, or delete this row"
+            yield Finding.error(place, text, remedy)
     for place, text in column(inputs, ("links",), "friction"):
         home = arrays.get(inputs["links"][place.row].get("array", ""))
         yield from _blocks(place, text, inputs, where, home)
@@ -42,11 +42,11 @@ def _blocks(
 ) -> Iterator[Finding]:
     mus = coefficients(text)
     if not mus:
-        wanted = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45"
-        yield Finding.error(place, f"block friction is '{text}'", f"{wanted}, 0.50")
+        remedy = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45"
+        yield Finding.error(place, f"block friction is '{text}'", f"{remedy}, 0.50")
         return
     mu = inputs["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
-        side, at = "above" if mu < min(mus) else "below", where(home._replace(field="mu"))
-        fault = f"block friction is '{text}', all {side} the {mu:g} at {at}"
+        side, address = "above" if mu < min(mus) else "below", where(home._replace(field="mu"))
+        fault = f"block friction is '{text}', all {side} the {mu:g} at {address}"
         yield Finding.error(place, fault, "give a range that includes it, or change it")

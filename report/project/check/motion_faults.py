@@ -63,13 +63,13 @@ def _scale_value(index: int, row: InputRow) -> Iterator[Finding]:
 def _processing(index: int, row: InputRow) -> Iterator[Finding]:
     start, end = row.get("from_s"), row.get("to_s")
     if end is not None and end <= (start or 0.0):
-        wanted = f"give {(start or 0.0) + SHORTEST_S:g} s or more"
-        yield Finding.error(Place("motions", index, "to_s"), f"end time is {end:g} s", wanted)
+        remedy = f"give {(start or 0.0) + SHORTEST_S:g} s or more"
+        yield Finding.error(Place("motions", index, "to_s"), f"end time is {end:g} s", remedy)
     high, low = row.get("highpass_hz"), row.get("lowpass_hz")
     if high is not None and low is not None and low <= high:
         text = f"low-pass corner is {low:g} Hz"
-        wanted = f"give more than the high-pass corner, {high:g} Hz"
-        yield Finding.error(Place("motions", index, "lowpass_hz"), text, wanted)
+        remedy = f"give more than the high-pass corner, {high:g} Hz"
+        yield Finding.error(Place("motions", index, "lowpass_hz"), text, remedy)
 
 
 def _building(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -78,8 +78,8 @@ def _building(inputs: Inputs, where: Where) -> Iterator[Finding]:
         # The first mode has the longest period.
         if second is not None and (first is None or second > first):
             longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
-            text, wanted = f"period T2 is {second:g} s", f"give {longest}, or leave it blank"
-            yield Finding.error(Place("building", 0, "period_2_s"), text, wanted)
+            text, remedy = f"period T2 is {second:g} s", f"give {longest}, or leave it blank"
+            yield Finding.error(Place("building", 0, "period_2_s"), text, remedy)
     # Only a ground motion passes through the model of the building.
     grounds = (row.get("recorded_at") is RecordedAt.GROUND for row in inputs["motions"])
     for row in inputs["site"] if any(grounds) else ():
@@ -99,16 +99,16 @@ def _own_spectrum(inputs: Inputs, where: Where) -> Iterator[Finding]:
     for (before, first), (after, second) in pairwise(sorted(periods)):
         # The spectrum has no line between two points at one period.
         if after - before <= 1e-9 * after:
-            at = where(Place("spectrum", first, "period_s"))
-            text = f"period is {after:g} s, already given at {at}"
+            address = where(Place("spectrum", first, "period_s"))
+            text = f"period is {after:g} s, already given at {address}"
             yield Finding.error(
                 Place("spectrum", second, "period_s"), text, "give each period once"
             )
     verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
     if any(verticals) and not all(verticals):
         index = next(i for i, row in enumerate(rows) if row.get("vertical_g", 0.0) is None)
-        wanted = "give it in every row, or in none"
-        yield Finding.error(Place("spectrum", index, "vertical_g"), "vertical is missing", wanted)
+        remedy = "give it in every row, or in none"
+        yield Finding.error(Place("spectrum", index, "vertical_g"), "vertical is missing", remedy)
 
 
 def _scaled_to_target(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -118,8 +118,8 @@ def _scaled_to_target(inputs: Inputs, where: Where) -> Iterator[Finding]:
         return
     if end <= start:
         text = f"longest scaling period is {end:g} s"
-        wanted = f"give more than the shortest, {start:g} s"
-        yield Finding.error(Place("target", 0, "to_s"), text, wanted)
+        remedy = f"give more than the shortest, {start:g} s"
+        yield Finding.error(Place("target", 0, "to_s"), text, remedy)
         return
     scaled = [i for i, m in enumerate(inputs["motions"]) if m.get("scaling") is Scaling.TARGET]
     for index in scaled:
@@ -164,13 +164,13 @@ def _design_spectrum(inputs: Inputs, ground: list[int], where: Where) -> Iterato
         (Place("target", 0, "t_l_s"), "long-period transition T_L", t_l_s),
     ):
         if ground and value is None:
-            at = where(Place("motions", ground[0], "scaling"))
-            wanted = f"{at} scales a ground motion to the design spectrum, which requires"
-            wanted += " S_D1, or S_1 and F_v, and T_L"
-            yield Finding.error(place, f"{name} is missing", wanted)
+            address = where(Place("motions", ground[0], "scaling"))
+            remedy = f"{address} scales a ground motion to the design spectrum, which requires"
+            remedy += " S_D1, or S_1 and F_v, and T_L"
+            yield Finding.error(place, f"{name} is missing", remedy)
     t_s = None if parameters is None else parameters.t_s
     # The design spectrum falls as 1/T between T_S and T_L.
     if t_s is not None and t_l_s is not None and t_l_s <= t_s:
         text = f"long-period transition T_L is {t_l_s:g} s"
-        wanted = f"give more than T_S = S_D1/S_DS = {digits_up(t_s, 3)} s"
-        yield Finding.error(Place("target", 0, "t_l_s"), text, wanted)
+        remedy = f"give more than T_S = S_D1/S_DS = {digits_up(t_s, 3)} s"
+        yield Finding.error(Place("target", 0, "t_l_s"), text, remedy)

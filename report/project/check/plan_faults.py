@@ -56,11 +56,13 @@ def _rectangles(inputs: Inputs, where: Where) -> Iterator[Finding]:
             low, high = row.get(first), row.get(last)
             if low is None or high is None or low < high:
                 continue
-            shown, least = (pair(value, Quantity.PLAN, us_first(inputs)) for value in (high, low))
-            at = where(place._replace(field=first))
-            wanted = f"give more than {_label(first)} in {at}, {least}"
-            fault = f"{_label(last)} is {shown}"
-            yield Finding.error(place._replace(field=last), fault, wanted)
+            high_text, low_text = (
+                pair(value, Quantity.PLAN, us_first(inputs)) for value in (high, low)
+            )
+            address = where(place._replace(field=first))
+            remedy = f"give more than {_label(first)} in {address}, {low_text}"
+            fault = f"{_label(last)} is {high_text}"
+            yield Finding.error(place._replace(field=last), fault, remedy)
 
 
 def _label(side: str) -> str:
@@ -90,15 +92,15 @@ def _ring_faults(outline: OutlineRows, is_us: bool) -> Iterator[Finding]:
         text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
         yield Finding.error(outline.place, text, f"give at least {LEAST_VERTICES}, one to a row")
         return
-    at = crossing(points)
-    if at is not None:
-        text = f"outline of {outline.name} touches or crosses itself near {spot(at, is_us)}"
+    point = crossing(points)
+    if point is not None:
+        text = f"outline of {outline.name} touches or crosses itself near {spot(point, is_us)}"
         yield Finding.error(outline.place, text, "give its vertices in order, none of them twice")
 
 
-def spot(at: Point, is_us: bool) -> str:
+def spot(point: Point, is_us: bool) -> str:
     """Return a point of the plan in words."""
-    x, y = (pair(value, Quantity.PLAN, is_us) for value in at)
+    x, y = (pair(value, Quantity.PLAN, is_us) for value in point)
     return f"x {x}, y {y}"
 
 
@@ -111,10 +113,10 @@ def _scattered(inputs: Inputs, where: Where) -> Iterator[Finding]:
             continue
         before = last.get(name.casefold(), index - 1)
         if before != index - 1:
-            at = where(Place("outlines", before, "name"))
-            text = f"outline of '{name}' goes on here after {at}"
-            wanted = "put all of its rows together"
-            yield Finding.error(Place("outlines", index, "name"), text, wanted)
+            address = where(Place("outlines", before, "name"))
+            text = f"outline of '{name}' goes on here after {address}"
+            remedy = "put all of its rows together"
+            yield Finding.error(Place("outlines", index, "name"), text, remedy)
         last[name.casefold()] = index
 
 
@@ -124,10 +126,10 @@ def _doubled(inputs: Inputs, where: Where) -> Iterator[Finding]:
         name = ROOF if place.section == "roof" else row.get("id", "")
         side = next((side for side in SIDES if row.get(side) is not None), None)
         if name in outlines and side is not None:
-            at = where(outlines[name].place)
-            text = f"{_label(side)} is given, and {name} has an outline at {at}"
-            wanted = "leave the four sides blank, or delete the outline"
-            yield Finding.error(place._replace(field=side), text, wanted)
+            address = where(outlines[name].place)
+            text = f"{_label(side)} is given, and {name} has an outline at {address}"
+            remedy = "leave the four sides blank, or delete the outline"
+            yield Finding.error(place._replace(field=side), text, remedy)
 
 
 def _on_the_roof(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -136,21 +138,21 @@ def _on_the_roof(inputs: Inputs, where: Where) -> Iterator[Finding]:
         roof = shape_of(row, outlines.get(ROOF))
         if roof is None:
             continue
-        at = outlines[ROOF].place if ROOF in outlines else Place("roof", 0, "x_from_m")
+        roof_place = outlines[ROOF].place if ROOF in outlines else Place("roof", 0, "x_from_m")
         for index, array in enumerate(inputs["arrays"]):
-            own = outlines.get(array.get("id", ""))
-            if isinstance(roof, Rectangle) and own is None:
+            outline = outlines.get(array.get("id", ""))
+            if isinstance(roof, Rectangle) and outline is None:
                 yield from _beyond(roof, index, array, inputs, where)
                 continue
-            shape = shape_of(array, own)
+            shape = shape_of(array, outline)
             beyond = outside(shape, roof) if shape is not None else None
             if beyond is not None:
                 text = (
                     f"{array.get('id')} is outside the roof near {spot(beyond, us_first(inputs))}"
                 )
-                place = Place("arrays", index, "x_from_m") if own is None else own.place
-                wanted = f"correct it, or the outline of the roof at {where(at)}"
-                yield Finding.error(place, text, wanted)
+                place = Place("arrays", index, "x_from_m") if outline is None else outline.place
+                remedy = f"correct it, or the outline of the roof at {where(roof_place)}"
+                yield Finding.error(place, text, remedy)
 
 
 def _beyond(
@@ -163,8 +165,8 @@ def _beyond(
         shown, limit = (pair(at, Quantity.PLAN, us_first(inputs)) for at in (value, edge))
         inside, at = "more" if is_low else "less", where(Place("roof", 0, side))
         text = f"{_label(side)} is {shown}, outside the roof"
-        wanted = f"give {limit} or {inside}, or correct the outline at {at}"
-        yield Finding.error(Place("arrays", index, side), text, wanted)
+        remedy = f"give {limit} or {inside}, or correct the outline at {at}"
+        yield Finding.error(Place("arrays", index, side), text, remedy)
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,7 +189,7 @@ def _overlaps(inputs: Inputs, where: Where) -> Iterator[Finding]:
             # They are sorted from the left: none of the following reaches back either.
             if other.bounds.x_from_m >= body.bounds.x_to_m:
                 break
-            first, second = sorted((body, other), key=lambda each: (not each.is_array, each.place))
+            first, second = sorted((body, other), key=lambda one: (not one.is_array, one.place))
             if not first.is_array or frozenset((body.name, other.name)) in cleared:
                 continue
             # Boxes first: shapes that are no rectangles are measured by a library.
@@ -200,8 +202,8 @@ def _bodies(inputs: Inputs) -> Iterator[_Body]:
     """Yield the arrays and objects that have a shape, without edges: an array may reach them."""
     outlines = outlines_of(inputs)
     for place, row in rows_in(inputs):
-        own = outlines.get(row.get("id", ""))
-        shape = shape_of(row, own) if "id" in row else None
+        outline = outlines.get(row.get("id", ""))
+        shape = shape_of(row, outline) if "id" in row else None
         if shape is not None and row.get("kind") not in _EDGES:
-            at = place._replace(field="x_from_m") if own is None else own.place
-            yield _Body(at, row["id"], place.section == "arrays", shape, shape.bounds)
+            shape_place = place._replace(field="x_from_m") if outline is None else outline.place
+            yield _Body(shape_place, row["id"], place.section == "arrays", shape, shape.bounds)

@@ -60,11 +60,11 @@ def implausible(data: ProjectInput) -> Iterator[Finding]:
     """Yield a warning for each value that is permitted and improbable, one for a cell."""
     short = _short_of_plan(data)
     findings = [*_contradictory(data), *_provided(data, short)]
-    told = {finding.place for finding in findings if finding.level is Level.WARNING}
+    warned = {finding.place for finding in findings if finding.level is Level.WARNING}
     # A length in a wrong unit is outside its usual range as well.
-    told |= {Place("clearances", index, "provided_m") for index in short}
+    warned |= {Place("clearances", index, "provided_m") for index in short}
     yield from findings
-    yield from (finding for finding in unusual(data) if finding.place not in told)
+    yield from (finding for finding in unusual(data) if finding.place not in warned)
 
 
 def _contradictory(data: ProjectInput) -> Iterator[Finding]:
@@ -79,9 +79,9 @@ def _contradictory(data: ProjectInput) -> Iterator[Finding]:
     yield from _overrides(data)
     yield from _far(data)
     arrays = {array.id: array for array in data.arrays}
-    for index, other in _objects_in_plan(data):
+    for index, neighbor in _objects_in_plan(data):
         row = data.clearances[index]
-        yield from _direction(index, row, arrays[row.array], other)
+        yield from _direction(index, row, arrays[row.array], neighbor)
 
 
 def _far(data: ProjectInput) -> Iterator[Finding]:
@@ -102,9 +102,9 @@ def _objects_in_plan(data: ProjectInput) -> Iterator[tuple[int, Shape]]:
 def _short_of_plan(data: ProjectInput) -> dict[int, float]:
     """Return the gap in plan [m] of each clearance that is less, by row; more is an error."""
     shapes, short = {array.id: array.shape for array in data.arrays}, {}
-    for index, other in _objects_in_plan(data):
+    for index, neighbor in _objects_in_plan(data):
         row = data.clearances[index]
-        gap = gap_m(shapes[row.array], other)
+        gap = gap_m(shapes[row.array], neighbor)
         if row.provided_m < gap - gap_tolerance_m(gap):
             short[index] = gap
     return short
@@ -132,8 +132,8 @@ def _dates(data: ProjectInput) -> Iterator[Finding]:
 def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
     z, h = data.site.roof_height_m, data.site.structure_height_m
     if z > h:
-        height, most = (pair(value, Quantity.PLAN, us_first) for value in (z, h))
-        text = f"height of the array z is {height}, above the structure height h of {most};"
+        height, height_limit = (pair(value, Quantity.PLAN, us_first) for value in (z, h))
+        text = f"height of the array z is {height}, above the structure height h of {height_limit};"
         yield warning("height z", Place("site", 0, "roof_height_m"), f"{text} correct one of them")
 
 
@@ -210,11 +210,11 @@ def _overrides(data: ProjectInput) -> Iterator[Finding]:
             yield warning(f"override {row.provision}", Place("overrides", index, "value"), text)
 
 
-def _direction(index: int, row: Clearance, array: Array, other: Shape) -> Iterator[Finding]:
+def _direction(index: int, row: Clearance, array: Array, neighbor: Shape) -> Iterator[Finding]:
     # Shapes that touch have no direction between them.
-    if row.direction is Direction.ANY or gap_m(array.shape, other) <= 0.0:
+    if row.direction is Direction.ANY or gap_m(array.shape, neighbor) <= 0.0:
         return
-    (x0, y0), (x1, y1) = closest(array.shape, other)
+    (x0, y0), (x1, y1) = closest(array.shape, neighbor)
     turned_deg = math.degrees(math.atan2(y1 - y0, x1 - x0)) - array.downslope_deg
     lies = min(_FROM_DOWNSLOPE_DEG, key=lambda direction: _askew_deg(turned_deg, direction))
     if _askew_deg(turned_deg, row.direction) > MOST_ASKEW_DEG:

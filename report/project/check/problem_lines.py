@@ -23,11 +23,11 @@ def grouped(problems: Iterable[Problem]) -> Iterable[Sequence[Problem]]:
 
 def line_of(equal: Sequence[Problem]) -> str:
     """Return equal problems as one line, with their cells."""
-    return str(replace(equal[0], where=listed(each.where for each in equal)))
+    return str(replace(equal[0], where=listed(problem.where for problem in equal)))
 
 
 def listed(names: Iterable[str], most: int = MOST_LISTED) -> str:
     """Return the first few of the names, with the count of the others."""
     unique = list(dict.fromkeys(names))
-    more = len(unique) - most
-    return ", ".join(unique[:most]) + (f" and {more:,} more" if more > 0 else "")
+    n_more = len(unique) - most
+    return ", ".join(unique[:most]) + (f" and {n_more:,} more" if n_more > 0 else "")

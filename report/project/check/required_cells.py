@@ -68,10 +68,10 @@ REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
 
 def missing(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield the cells that are required by others, and blank."""
-    for (section, field), (is_required, wanted) in REQUIRED.items():
+    for (section, field), (is_required, remedy) in REQUIRED.items():
         for index, row in enumerate(inputs[section]):
             # What could not be read is not blank, and has an error of its own.
             is_blank = field in row and row[field] in (None, "")
             if is_blank and is_required(row, inputs):
                 fault = f"{SECTION[section].entry(field).spoken} is missing"
-                yield Finding.error(Place(section, index, field), fault, wanted)
+                yield Finding.error(Place(section, index, field), fault, remedy)

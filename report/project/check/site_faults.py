@@ -51,16 +51,16 @@ def site_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
         yield from _sdc(row)
 
 
-def _fault(field: str, fault: str, wanted: str) -> Finding:
-    return Finding.error(Place("site", 0, field), fault, wanted)
+def _fault(field: str, fault: str, remedy: str) -> Finding:
+    return Finding.error(Place("site", 0, field), fault, remedy)
 
 
 def _importance(row: InputRow) -> Iterator[Finding]:
     risk_category, i_e = row.get("risk_category"), row.get("i_e")
     if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
         return
-    wanted = f"give at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}"
-    yield _fault("i_e", f"importance factor I_e is {i_e:g}", wanted)
+    remedy = f"give at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}"
+    yield _fault("i_e", f"importance factor I_e is {i_e:g}", remedy)
 
 
 def _edition(row: InputRow, edition: Edition) -> Iterator[Finding]:
@@ -72,11 +72,11 @@ def _edition(row: InputRow, edition: Edition) -> Iterator[Finding]:
     # From ASCE 7-22 on, S_MS and S_M1 are read off for a site class.
     if edition.has_site_coefficients:
         return
-    for field, label, other in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
+    for field, label, instead in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
         if row.get(field) is not None:
             text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients"
-            wanted = f"leave it blank and give {other} from a hazard tool"
-            yield _fault(field, text, wanted)
+            remedy = f"leave it blank and give {instead} from a hazard tool"
+            yield _fault(field, text, remedy)
 
 
 def _missing_s_ds(row: InputRow, edition: Edition) -> Iterator[Finding]:
@@ -87,8 +87,8 @@ def _missing_s_ds(row: InputRow, edition: Edition) -> Iterator[Finding]:
     missing = [n for n in ("s_s_g", "f_a") if row[n] is None] if has_coefficients else []
     field = missing[0] if len(missing) == 1 else "s_ds_g"
     label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
-    wanted = "give S_DS, S_MS, or both S_S and F_a" if has_coefficients else "give S_DS or S_MS"
-    yield _fault(field, f"{label} is missing", wanted)
+    remedy = "give S_DS, S_MS, or both S_S and F_a" if has_coefficients else "give S_DS or S_MS"
+    yield _fault(field, f"{label} is missing", remedy)
 
 
 def _agreement(row: InputRow, edition: Edition, chain: _Chain) -> Iterator[Finding]:
@@ -138,16 +138,16 @@ def _below_table(
     of_class += "" if row["site_class"] else ", assumed because none is given"
     if entered is not None:
         if entered < tabulated - ROUNDING_OF_COEFFICIENTS:
-            wanted = f"give at least {tabulated:.4g} {of_class} and {symbol} of {mapped_g:g} g in"
-            at = where(Place("site", 0, mapped))
-            yield _or_study(coefficient, f"{factor} is {entered:g}", f"{wanted} {at}", table)
+            remedy = f"give at least {tabulated:.4g} {of_class} and {symbol} of {mapped_g:g} g in"
+            address = where(Place("site", 0, mapped))
+            yield _or_study(coefficient, f"{factor} is {entered:g}", f"{remedy} {address}", table)
         return
     for (name, label), share, words in ((maximum, 1.0, ""), (design, 2.0 / 3.0, "2/3 ")):
-        value, least = row.get(name), share * tabulated * mapped_g
-        if value is not None and value < least - AGREES_G:
-            wanted = f"give at least {math.ceil(1e3 * least) / 1e3:g} g, which is {words}{factor}"
-            wanted += f" {symbol} with {factor} of {tabulated:.4g} {of_class}"
-            yield _or_study(name, f"{label} is {value:g} g", wanted, table)
+        value, least_g = row.get(name), share * tabulated * mapped_g
+        if value is not None and value < least_g - AGREES_G:
+            remedy = f"give at least {math.ceil(1e3 * least_g) / 1e3:g} g, which is {words}{factor}"
+            remedy += f" {symbol} with {factor} of {tabulated:.4g} {of_class}"
+            yield _or_study(name, f"{label} is {value:g} g", remedy, table)
 
 
 def _tabulated(
@@ -163,9 +163,9 @@ def _tabulated(
     return math.nan if has_none else site_coefficient(table, site_class, mapped_g)
 
 
-def _or_study(field: str, fault: str, wanted: str, table: CoefficientTable) -> Finding:
+def _or_study(field: str, fault: str, remedy: str, table: CoefficientTable) -> Finding:
     out = f"or select the hazard basis '{HazardBasis.SITE_SPECIFIC}' and give its report"
-    return _fault(field, fault, f"{wanted} ({table.clause}†), {out}")
+    return _fault(field, fault, f"{remedy} ({table.clause}†), {out}")
 
 
 def _sdc(row: InputRow) -> Iterator[Finding]:
@@ -174,8 +174,8 @@ def _sdc(row: InputRow) -> Iterator[Finding]:
         return
     sdc, possible = row["sdc"], categories(row)
     if sdc is None:
-        others = " and ".join(category_lacks(row))
-        yield _fault("sdc", f"{_SDC} is missing", f"choose A, B, C, D, E or F, or give {others}")
+        missing = " and ".join(category_lacks(row))
+        yield _fault("sdc", f"{_SDC} is missing", f"choose A, B, C, D, E or F, or give {missing}")
         return
     # ASCE 7 11.6: the more severe of two tables; S_1 from 0.75 g on gives E, or F in category IV.
     reasons = (
@@ -183,7 +183,9 @@ def _sdc(row: InputRow) -> Iterator[Finding]:
         (f"S_D1 = {parameters.s_d1 or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
         (f"S_1 = {row['s_1_g'] or 0.0:g} g", "ASCE 7 section 11.6"),
     )
-    least, (reason, clause) = max(zip(possible, reasons, strict=True), key=lambda by: by[0])
-    if sdc < least:
-        wanted = f"{reason} in risk category {risk_category} requires {least} or higher ({clause})"
-        yield _fault("sdc", f"{_SDC} is '{sdc}'", wanted)
+    required, (reason, clause) = max(zip(possible, reasons, strict=True), key=lambda by: by[0])
+    if sdc < required:
+        remedy = (
+            f"{reason} in risk category {risk_category} requires {required} or higher ({clause})"
+        )
+        yield _fault("sdc", f"{_SDC} is '{sdc}'", remedy)

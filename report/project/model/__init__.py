@@ -128,7 +128,8 @@ def linked(data: ProjectInput) -> ProjectInput:
     parts["objects"] = tuple(item.outlined(outlines.get(item.id, ())) for item in data.objects)
     parts["roof"] = data.roof.outlined(outlines.get(ROOF, ()))
     parts["arrays"] = arrays
-    if lost := [row.id for row in arrays if row.placed is None]:
+    lost = [row.id for row in arrays if row.placed is None]
+    if lost:
         raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
     return data.model_copy(update=parts)
 

@@ -50,8 +50,8 @@ class Options(Frozen):
     @property
     def has_review(self) -> bool:
         """Whether peer review is stated with all that a plan checker asks for."""
-        given = self.peer_reviewer, self.peer_license, self.peer_date, self.peer_letter
-        return self.peer_reviewed and all(given)
+        parts = self.peer_reviewer, self.peer_license, self.peer_date, self.peer_letter
+        return self.peer_reviewed and all(parts)
 
     @property
     def smaller_factors(self) -> tuple[float, ...]:

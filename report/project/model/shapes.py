@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import chain, combinations, product
 from typing import Any
 
 Point = tuple[float, float]
@@ -84,7 +85,7 @@ def ring(points: Sequence[Point]) -> tuple[Point, ...]:
 
 def around(shapes: Iterable[Shape]) -> Rectangle:
     """Return the smallest rectangle around shapes."""
-    x, y = zip(*(point for shape in shapes for point in shape.points), strict=True)
+    x, y = zip(*chain.from_iterable(shape.points for shape in shapes), strict=True)
     return Rectangle(min(x), max(x), min(y), max(y))
 
 
@@ -95,9 +96,9 @@ def gap_m(a: Shape, b: Shape) -> float:
         dx = max(a.x_from_m, b.x_from_m) - min(a.x_to_m, b.x_to_m)
         dy = max(a.y_from_m, b.y_from_m) - min(a.y_to_m, b.y_to_m)
         return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
-    first, other = solid(a), solid(b)
-    overlap = _depth_m(first.intersection(other))
-    return -overlap if overlap > 0.0 else float(first.distance(other))
+    first, second = solid(a), solid(b)
+    overlap = _depth_m(first.intersection(second))
+    return -overlap if overlap > 0.0 else float(first.distance(second))
 
 
 def _depth_m(area: Any) -> float:
@@ -141,10 +142,13 @@ def _facing_sides(a: Shape, b: Shape) -> tuple[float, Point, Point]:
     import shapely
 
     # Of all sides at the smallest distance, those that face each other over the longest stretch.
-    own, others = ([side for side in sides(s.points) if side[0] != side[1]] for s in (a, b))
-    distances = shapely.distance(shapely.linestrings(own)[:, None], shapely.linestrings(others))
+    sides_a = [(start, end) for start, end in sides(a.points) if start != end]
+    sides_b = [(start, end) for start, end in sides(b.points) if start != end]
+    distances = shapely.distance(
+        shapely.linestrings(sides_a)[:, None], shapely.linestrings(sides_b)
+    )
     near = np.argwhere(distances <= distances.min() + NEAR_M)
-    facing = [_facing(own[i], others[j]) for i, j in near]
+    facing = [_facing(sides_a[i], sides_b[j]) for i, j in near]
     return max(facing, key=lambda side: side[0])
 
 
@@ -224,7 +228,7 @@ def room(shape: Shape) -> Rectangle:
     (x, y), (on_x, on_y) = shapely.maximum_inscribed_circle(solid(shape)).coords
     half = math.dist((x, y), (on_x, on_y)) * math.sqrt(0.5)
     best = Rectangle(x - half, x + half, y - half, y + half)
-    boxes = [Rectangle(*xs, *ys) for xs in _ranges(shape, 0) for ys in _ranges(shape, 1)]
+    boxes = [Rectangle(*xs, *ys) for xs, ys in product(_ranges(shape, 0), _ranges(shape, 1))]
     solids = [shapely.box(box.x_from_m, box.y_from_m, box.x_to_m, box.y_to_m) for box in boxes]
     is_within = shapely.covers(solid(shape), solids)
     within = [box for box, is_inside in zip(boxes, is_within, strict=True) if is_inside]
@@ -235,7 +239,7 @@ def _ranges(shape: Polygon, axis: int) -> list[tuple[float, float]]:
     """Return the ranges between coordinates of vertices; of many vertices, of some."""
     values = sorted({point[axis] for point in shape.points})
     some = values[:: math.ceil(len(values) / _MOST_COORDINATES)]
-    return [(low, high) for k, low in enumerate(some) for high in some[k + 1 :]]
+    return list(combinations(some, 2))
 
 
 def between(a: Shape, b: Shape) -> Shape | None:

@@ -199,16 +199,16 @@ def least_i_e(row: InputRow) -> float | None:
 
 def least_category(row: InputRow) -> Sdc | None:
     """Return the SDC of a row, if all that it depends on is given."""
-    least = max(categories(row))
-    return Sdc(least) if least and not category_lacks(row) else None
+    category = max(categories(row))
+    return Sdc(category) if category and not category_lacks(row) else None
 
 
 def tabulated_f_a(row: InputRow) -> float | None:
     """Return F_a of its table where S_MS follows from it; None where that is site-specific."""
-    edition, wanted = edition_of_row(row), ("s_s_g", "site_class", "hazard", "s_ms_g", "s_ds_g")
-    if edition is None or edition.name != F_A.edition or not row.keys() >= {*wanted}:
+    edition, fields = edition_of_row(row), ("s_s_g", "site_class", "hazard", "s_ms_g", "s_ds_g")
+    if edition is None or edition.name != F_A.edition or not row.keys() >= {*fields}:
         return None
-    s_s_g, site_class, hazard, *coefficients = (row[name] for name in wanted)
+    s_s_g, site_class, hazard, *coefficients = (row[name] for name in fields)
     has_table = site_class in F_A.rows and hazard is not HazardBasis.SITE_SPECIFIC
     if s_s_g is None or not has_table or coefficients != [None, None]:
         return None

@@ -15,6 +15,7 @@ import zipfile
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from typing import IO, Any
 from xml.etree.ElementTree import ParseError
@@ -119,7 +120,7 @@ def book_of(path: Path, data: bytes) -> OpenBook:
         sheets={sheet.title: sheet for sheet in book.worksheets},
         scans=scans,
         calculation=parts[_WORKBOOK].calculation,
-        outside=tuple(dict.fromkeys(link for scan in parts.values() for link in scan.outside)),
+        outside=tuple(dict.fromkeys(chain.from_iterable(scan.outside for scan in parts.values()))),
     )
 
 
@@ -130,8 +131,8 @@ def located(path: Path) -> Path:
         path = path / "input.xlsx"
     if not path.exists():
         check_length(path)
-        wanted = "give a workbook, or a folder that holds input.xlsx"
-        raise InputError(f"no such file; {asked or _workbook_in(path.parent) or wanted}")
+        remedy = "give a workbook, or a folder that holds input.xlsx"
+        raise InputError(f"no such file; {asked or _workbook_in(path.parent) or remedy}")
     if not path.is_file():
         raise InputError("not a file; give a workbook, or a folder that holds input.xlsx")
     if path.suffix.lower() != ".xlsx":
@@ -144,13 +145,13 @@ def _workbook_in(*folders: Path) -> str:
     """Ask for the workbooks of the first folder that has some, or name one of another kind."""
     for folder in filter(Path.is_dir, folders):
         # Excel puts ~$NAME beside a workbook that is open.
-        files = sorted(each for each in folder.iterdir() if not each.name.startswith("~$"))
-        if books := [each for each in files if each.suffix.lower() == ".xlsx"]:
-            shown = " or ".join(f"'{each}'" for each in books)
-            return f"did you mean {shown}?" if len(books) <= MOST_ASKED else ""
-        others = [each for each in files if OTHER_KINDS.get(each.suffix.lower(), _CSV) != _CSV]
-        if len(others) == 1:
-            return f"'{others[0]}' is {OTHER_KINDS[others[0].suffix.lower()]}; {SAVE_AS}"
+        files = sorted(file for file in folder.iterdir() if not file.name.startswith("~$"))
+        if books := [file for file in files if file.suffix.lower() == ".xlsx"]:
+            names = " or ".join(f"'{file}'" for file in books)
+            return f"did you mean {names}?" if len(books) <= MOST_ASKED else ""
+        other_files = [file for file in files if OTHER_KINDS.get(file.suffix.lower(), _CSV) != _CSV]
+        if len(other_files) == 1:
+            return f"'{other_files[0]}' is {OTHER_KINDS[other_files[0].suffix.lower()]}; {SAVE_AS}"
     return ""
 
 
@@ -170,7 +171,8 @@ def zip_of(content: IO[bytes], damaged: str) -> zipfile.ZipFile:
     # The library makes an object of each entry of the directory before anything can be refused,
     # however many the record at the end states; each begins with these bytes.
     content.seek(0)
-    if (count := content.read().count(b"PK\x01\x02")) > MAX_MEMBERS:
+    count = content.read().count(b"PK\x01\x02")
+    if count > MAX_MEMBERS:
         raise InputError(f"has {count:,} parts, more than {MAX_MEMBERS:,}; give a smaller one")
     try:
         return zipfile.ZipFile(content)
@@ -233,10 +235,10 @@ def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict
         if scans[part].is_beyond:
             raise InputError(f"damaged at {part}; {REOPEN}")
         by_title[title] = scans[part]
-        if cell := scans[part].twice:
-            raise InputError(f"{title}!{cell}: the file has this cell twice; {REOPEN}")
-    if name := scans[_WORKBOOK].twice:
-        raise InputError(f"the file has the name {name} twice; {REOPEN}")
+        if scans[part].twice:
+            raise InputError(f"{title}!{scans[part].twice}: the file has this cell twice; {REOPEN}")
+    if scans[_WORKBOOK].twice:
+        raise InputError(f"the file has the name {scans[_WORKBOOK].twice} twice; {REOPEN}")
     return by_title
 
 
@@ -244,9 +246,9 @@ def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
     """Return each sheet's title with the name of its part, as openpyxl resolves it."""
     # Targets are relative to the part of the workbook (ECMA-376-2, 9.3).
     targets = {
-        item.get("Id"): posixpath.normpath(posixpath.join("/xl", target)).lstrip("/")
+        item.get("Id"): posixpath.normpath(posixpath.join("/xl", item.get("Target"))).lstrip("/")
         for item in _tree(archive, _RELATIONS)
-        if (target := item.get("Target"))
+        if item.get("Target")
     }
     listed = [
         (element.get("name", ""), targets.get(element.get(REL), ""))

@@ -137,14 +137,31 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") 
     Raises `CellError`.
     """
     check_saved(cell)
-    wanted = wish(entry, unit, si)
-    value = _converted(cell, entry, wanted, unit or shown, si)
+    remedy = wish(entry, unit, si)
+    text = trimmed(cell.value) if isinstance(cell.value, str) else ""
+    # Marks of feet and inches say their own unit, whatever the column has.
+    is_length = entry.quantity is not None and entry.quantity.accepted is LENGTHS
+    inches = inches_in(text) if is_length else math.nan
+    value: Any
+    if entry.kind is date:
+        value = _date(cell, remedy)
+    elif entry.choices:
+        value = _choice(cell, entry, remedy)
+    elif entry.kind is str:
+        value = _text(cell)
+    elif entry.zero and text.casefold() == entry.zero:
+        value = 0.0
+    elif math.isfinite(inches):
+        value = inches * INCH_M / si
+    else:
+        value = number(cell, remedy, unit or shown)
+        value = int(value) if entry.kind is int and value.is_integer() else value
     if isinstance(value, float):
         value *= si
     if isinstance(value, float | int) and not abs(value) <= LARGEST:
-        raise CellError(_is(cell, entry), f"{wanted}, below {LARGEST:g} in size")
+        raise CellError(_is(cell, entry), f"{remedy}, below {LARGEST:g} in size")
     if not entry.accepts(value):
-        raise CellError(_is(cell, entry), wanted)
+        raise CellError(_is(cell, entry), remedy)
     return entry.key_of(value) if entry.kind is str else value
 
 
@@ -201,68 +218,50 @@ def _quoted(value: object) -> str:
     return f"'{text}'" if isinstance(value, str) else text
 
 
-def _converted(cell: Found, entry: Entry, wanted: str, unit: str, si: float) -> Any:
-    if entry.kind in (int, float):
-        text = trimmed(cell.value) if isinstance(cell.value, str) else ""
-        if text and text.casefold() == entry.zero:
-            return 0.0
-        is_length = entry.quantity is not None and entry.quantity.accepted is LENGTHS
-        # Marks of feet and inches say their own unit, whatever the column has.
-        inches = inches_in(text) if is_length else math.nan
-        if math.isfinite(inches):
-            return inches * INCH_M / si
-        value = number(cell, wanted, unit)
-        return int(value) if entry.kind is int and value.is_integer() else value
-    if entry.kind is date:
-        return _date(cell, wanted)
-    if entry.choices:
-        return _choice(cell, entry, wanted)
-    return _text(cell)
-
-
-def number(cell: Found, wanted: str = "give a number", unit: str = "") -> float:
+def number(cell: Found, remedy: str = "give a number", unit: str = "") -> float:
     """Return the number in a cell or its text, in its unit; raise CellError for a false format."""
     value = cell.value
     if isinstance(value, str):
-        return _number_in_text(value.strip(), wanted, unit)
+        return _number_in_text(value.strip(), remedy, unit)
     if isinstance(value, bool):
-        raise CellError(f"is {plain(value)}, a logical value", wanted)
+        raise CellError(f"is {plain(value)}, a logical value", remedy)
     if isinstance(value, date | time | timedelta):
-        raise CellError(f"is a date or time ({plain(value)})", f"{wanted}, formatted as a number")
+        raise CellError(f"is a date or time ({plain(value)})", f"{remedy}, formatted as a number")
     # Whole numbers of any length are read as such; `float` has no value for 400 digits.
     if not abs(value) <= sys.float_info.max:
-        raise CellError(f"is {_quoted(value)}", wanted)
+        raise CellError(f"is {_quoted(value)}", remedy)
     # 5% in a cell of percent may be meant as 5 or as 0.05.
     if is_percentage(cell.number_format):
         raise CellError(
             f"is a percentage ({100 * value:g}%, which Excel holds as {value:g})",
-            f"{wanted}, formatted as a number",
+            f"{remedy}, formatted as a number",
         )
     if how := misleading(cell.number_format, unit):
         raise CellError(
             f"is {plain(value)}, shown {how} by its number format ({cut(cell.number_format)})",
-            f"{wanted}, formatted as a number",
+            f"{remedy}, formatted as a number",
         )
     return float(value)
 
 
-def _number_in_text(text: str, wanted: str, unit: str) -> float:
-    if math.isfinite(value := number_in(text)):
+def _number_in_text(text: str, remedy: str, unit: str) -> float:
+    value, rise = number_in(text), rise_in(text)
+    if math.isfinite(value):
         return value
-    if math.isfinite(rise := rise_in(text)):
+    if math.isfinite(rise):
         if choice_in(unit, SlopeUnit) == SlopeUnit.IN_PER_12:
             return rise
         raise CellError(
-            f"is '{cut(text)}'", f"{wanted}, or choose the slope unit {SlopeUnit.IN_PER_12}"
+            f"is '{cut(text)}'", f"{remedy}, or choose the slope unit {SlopeUnit.IN_PER_12}"
         )
-    if whole := in_thousands(text):
-        raise CellError(f"is '{cut(text)}'", f"write {whole}, without a comma")
+    if number_text := in_thousands(text):
+        raise CellError(f"is '{cut(text)}'", f"write {number_text}, without a comma")
     if _WITH_UNIT.fullmatch(text):
-        raise CellError(f"is '{cut(text)}'", f"{wanted}, with no unit in the cell")
-    raise CellError(f"is '{cut(text)}'", wanted)
+        raise CellError(f"is '{cut(text)}'", f"{remedy}, with no unit in the cell")
+    raise CellError(f"is '{cut(text)}'", remedy)
 
 
-def _date(cell: Found, wanted: str) -> date:
+def _date(cell: Found, remedy: str) -> date:
     value = cell.value
     if isinstance(value, datetime):
         day = value.date()
@@ -274,28 +273,28 @@ def _date(cell: Found, wanted: str) -> date:
     else:
         days = dates_in(value.strip()) if isinstance(value, str) else []
         if len(days) != 1:
-            either = f"write {' or '.join(map(str, days))}" if days else wanted
+            either = f"write {' or '.join(map(str, days))}" if days else remedy
             raise CellError(f"is {_quoted(value)}", either)
         (day,) = days
     # A spreadsheet shows a small number, such as 3.5, as a day of 1900.
     if day < EARLIEST:
-        raise CellError(f"is {day}, before {EARLIEST}", wanted)
+        raise CellError(f"is {day}, before {EARLIEST}", remedy)
     return day
 
 
-def _choice(cell: Found, entry: Entry, wanted: str) -> StrEnum | bool:
-    said = plain(cell.value)
+def _choice(cell: Found, entry: Entry, remedy: str) -> StrEnum | bool:
+    text = plain(cell.value)
     if entry.kind is bool:
-        said = {"true": "yes", "false": "no"}.get(said.strip().casefold(), said)
-    if choice := choice_in(said, entry.choices):
+        text = {"true": "yes", "false": "no"}.get(text.strip().casefold(), text)
+    if choice := choice_in(text, entry.choices):
         return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
     try:
         # What a choice is called otherwise, its own class knows; bool takes anything.
         if entry.kind is not bool:
-            return entry.kind(said.strip().casefold())  # type: ignore[no-any-return]
+            return entry.kind(text.strip().casefold())  # type: ignore[no-any-return]
     except ValueError:
         pass
-    raise CellError(f"is {_quoted(cell.value)}", wanted)
+    raise CellError(f"is {_quoted(cell.value)}", remedy)
 
 
 def _text(cell: Found) -> str:

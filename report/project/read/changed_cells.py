@@ -112,7 +112,7 @@ def _sheet(title: str, data: bytes) -> Any:
     if rows is None:
         raise InputError(f"{title}: has no cells; {REOPEN}")
     # They may be left out: then what is inserted has no place among the others.
-    if any("r" not in each.attrib for each in rows.iter("{*}row", "{*}c")):
+    if any("r" not in element.attrib for element in rows.iter("{*}row", "{*}c")):
         raise InputError(f"{title}: has cells without addresses; {REOPEN}")
     return sheet
 
@@ -131,9 +131,8 @@ def _fill(title: str, sheet: Any, cells: _Cells) -> bool:
     """Write cells of a sheet, and show columns that are filled; return if one was a formula."""
     home, at = sheet.find("{*}sheetData"), _cells_of(sheet)
     rows = {int(row.get("r")): row for row in home.iterfind("{*}row")}
-    formulas = {
-        place: formula for place, cell in at.items() if (formula := cell.find("{*}f")) is not None
-    }
+    formulas = {place: cell.find("{*}f") for place, cell in at.items()}
+    formulas = {place: formula for place, formula in formulas.items() if formula is not None}
     columns = [
         (range(int(element.get("min")), int(element.get("max")) + 1), element)
         for element in sheet.iterfind("{*}cols/{*}col")
@@ -168,7 +167,10 @@ def _inserted(parent: Any, tag: str, name: str, number_of: Any, number: int) -> 
     """Return a new row or cell, in its place among those of its parent."""
     space = etree.QName(parent).namespace
     element = parent.makeelement(etree.QName(space, tag), {"r": name})
-    before = sum(number_of(each.get("r")) < number for each in parent.iterfind(f"{{*}}{tag}"))
+    before = sum(
+        number_of(element_before.get("r")) < number
+        for element_before in parent.iterfind(f"{{*}}{tag}")
+    )
     parent.insert(before, element)
     return element
 
@@ -229,13 +231,13 @@ def _look_alike(sheet: Any, looks: Mapping[CellPosition, CellPosition]) -> None:
     at = _cells_of(sheet) if looks else {}
     rows = {int(row.get("r")): row for row in sheet.iterfind("{*}sheetData/{*}row")}
     for position, like in looks.items():
-        shown = at.get((like.row, like.column))
-        if shown is None or position.row not in rows:
+        model = at.get((like.row, like.column))
+        if model is None or position.row not in rows:
             continue
         cell = at.get((position.row, position.column))
         if cell is None:
             cell = _added(rows[position.row], position.cell, (), position.column)
-        if style := shown.get("s"):
+        if style := model.get("s"):
             cell.set("s", style)
 
 
@@ -278,7 +280,7 @@ def _longer_tables(
         if last > bottom and "totalsRowCount" not in table.attrib:
             longer = f"{get_column_letter(left)}{top}:{get_column_letter(right)}{last}"
             # Its filter has the same range.
-            for each in table.iter():
-                if each.get("ref") == old:
-                    each.set("ref", longer)
+            for part_of_table in table.iter():
+                if part_of_table.get("ref") == old:
+                    part_of_table.set("ref", longer)
             yield path, _written(table)

@@ -21,7 +21,7 @@ def copies(
 ) -> Iterator[Finding]:
     """Yield a warning for each sheet with all labels of one that is read."""
     rows = {sheet.title: _rows(book, sheet) for sheet in book.book.worksheets}
-    told: set[str] = set()
+    warned: set[str] = set()
     for section in sections:
         addresses_of = (
             address for place, address in addresses.items() if place.section == section.key
@@ -29,8 +29,8 @@ def copies(
         read = next(addresses_of, "").rpartition("!")[0]
         labels = _labels(section, rows[read]) if read in rows else frozenset()
         for title in rows:
-            if labels and title not in (read, *told) and labels <= _labels(section, rows[title]):
-                told.add(title)
+            if labels and title not in (read, *warned) and labels <= _labels(section, rows[title]):
+                warned.add(title)
                 text = (
                     f"sheets '{read}' and '{title}' both have the labels of {section.title};"
                     f" '{read}' is read, and '{title}' is ignored: delete the one that is not meant"

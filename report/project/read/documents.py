@@ -48,9 +48,9 @@ def read_documents(book: OpenBook, inputs: Inputs) -> tuple[tuple[Document, ...]
     for section, field in DOCUMENTS:
         entry = SECTION[section].entry(field)
         for name in filter(None, (row.get(field) for row in inputs[section])):
-            left = MAX_DOCUMENTS - sum(document.size for document in documents)
+            bytes_left = MAX_DOCUMENTS - sum(document.size for document in documents)
             try:
-                documents.append(_document(book, entry, name, left))
+                documents.append(_document(book, entry, name, bytes_left))
             except InputError as error:
                 (problem,) = error.parts
                 text, place = f"{entry.spoken}: {problem.found}", Place(section, 0, field)
@@ -58,16 +58,16 @@ def read_documents(book: OpenBook, inputs: Inputs) -> tuple[tuple[Document, ...]
     return tuple(documents), faults
 
 
-def _document(book: OpenBook, entry: Entry, name: str, left: int) -> Document:
+def _document(book: OpenBook, entry: Entry, name: str, bytes_left: int) -> Document:
     example = str(entry.example)
     content = path_beside(book.path.parent, name, MAX_DOCUMENTS, example).read_bytes()
     if entry.name == "study_years":
         _check_years(name, content)
     elif not content.startswith(b"%PDF-"):
         raise InputError(f"'{name}' is no PDF; attach it as a PDF")
-    if len(content) > left:
-        most = f"{MAX_DOCUMENTS / 1e6:.0f} MB"
-        raise InputError(f"'{name}' and the other documents have more than {most}; shrink them")
+    if len(content) > bytes_left:
+        limit = f"{MAX_DOCUMENTS / 1e6:.0f} MB"
+        raise InputError(f"'{name}' and the other documents have more than {limit}; shrink them")
     path = posixpath.normpath(name.replace("\\", "/"))
     sha256 = hashlib.sha256(content).hexdigest()
     book.files[sha256] = content

@@ -20,7 +20,7 @@ def references(formula: str) -> Sequence[str]:
         tokens: Sequence[Token] = Tokenizer(formula).items
     except (TokenizerError, IndexError):  # the second of a bracket that closes nothing
         return [""]
-    others = "".join(token.value for token in tokens if token.type != Token.OPERAND)
-    if not tokens or _COMPUTED.search(others):
+    operators = "".join(token.value for token in tokens if token.type != Token.OPERAND)
+    if not tokens or _COMPUTED.search(operators):
         return [""]
     return [token.value for token in tokens if token.subtype == Token.RANGE]

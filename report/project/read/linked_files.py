@@ -58,16 +58,16 @@ def _as_spelled(path: Path) -> Path:
         return path
     # macOS writes the accent of a letter as a character of its own; Excel does not.
     name = normalize("NFC", path.name)
-    beside = islice(path.parent.glob("*"), MOST_LISTED)
-    return next((file for file in beside if normalize("NFC", file.name) == name), path)
+    files = islice(path.parent.glob("*"), MOST_LISTED)
+    return next((file for file in files if normalize("NFC", file.name) == name), path)
 
 
 def _meant(folder: Path, name: str, taken: Iterable[str]) -> str:
     """Ask for the file whose name nearly fits, in the named folder or one of the workbook's."""
-    wanted = PurePosixPath(name)
-    near = islice(chain((folder / wanted).parent.glob("*"), folder.glob("*/*")), MOST_LISTED)
+    asked = PurePosixPath(name)
+    near = islice(chain((folder / asked).parent.glob("*"), folder.glob("*/*")), MOST_LISTED)
     by_stem = grouped_by((path for path in near if path.is_file()), lambda path: path.stem)
-    stems = {PurePosixPath(each).stem for each in islice(taken, MOST_LISTED)}
-    alike = by_stem.get(nearest(wanted.stem, by_stem, stems), [])
+    stems = {PurePosixPath(name_taken).stem for name_taken in islice(taken, MOST_LISTED)}
+    alike = by_stem.get(nearest(asked.stem, by_stem, stems), [])
     files = [path.relative_to(folder).as_posix() for path in alike]
     return f"did you mean '{nearest(name, files) or files[0]}'?" if files else ""

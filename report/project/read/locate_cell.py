@@ -43,9 +43,9 @@ def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosit
     by_field: dict[str, list[CellPosition]] = {}
     for position, label in _labels(book, section):
         if label in fields:
-            at = replace(position, column=position.column + 1)
-            if not found_at(book, at).is_blank:
-                by_field.setdefault(fields[label].name, []).append(at)
+            value_cell = replace(position, column=position.column + 1)
+            if not found_at(book, value_cell).is_blank:
+                by_field.setdefault(fields[label].name, []).append(value_cell)
     return by_field
 
 
@@ -57,10 +57,10 @@ def cell_as_column(
         check_uncovered(book, position)
         return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
     named = _named(book, section.unit_name(entry.name))
-    at = named or replace(position, column=position.column + 1)
-    check_uncovered(book, position, at)
-    unit, si = unit_size(entry, found_at(book, at).shown.strip(), at.address)
-    return FieldColumn(number=position.column, unit=unit, si=si, heading=at)
+    unit_cell = named or replace(position, column=position.column + 1)
+    check_uncovered(book, position, unit_cell)
+    unit, si = unit_size(entry, found_at(book, unit_cell).shown.strip(), unit_cell.address)
+    return FieldColumn(number=position.column, unit=unit, si=si, heading=unit_cell)
 
 
 def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
@@ -91,15 +91,15 @@ def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
 
 
 def _found(
-    book: OpenBook, section: SheetSection, field: str, wanted: Set[str]
+    book: OpenBook, section: SheetSection, field: str, names: Set[str]
 ) -> CellPosition | None:
     """Return the cell that has the name of a field, or else is beside one of some labels."""
     named = _named(book, section.cell_name(field))
     if named:
         return named
-    places = (position for position, label in _labels(book, section) if label in wanted)
-    at = next(places, None)
-    return replace(at, column=at.column + 1) if at else None
+    places = (position for position, label in _labels(book, section) if label in names)
+    label_cell = next(places, None)
+    return replace(label_cell, column=label_cell.column + 1) if label_cell else None
 
 
 def gone_cells(book: OpenBook, section: SheetSection) -> Iterator[tuple[GoneInput, CellPosition]]:

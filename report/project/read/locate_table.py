@@ -219,8 +219,8 @@ def _columns(
             # With an unknown heading no field counts as absent: the heading may be a renamed one.
             instead = f", '{found_at(book, following).value}' found" if following in others else ""
             missing = f"heading '{entry.heading}' is missing{instead}"
-            wanted = f"write it here in its own column, or {FRESH}"
-            problems.append(Problem(missing, wanted, following.address))
+            remedy = f"write it here in its own column, or {FRESH}"
+            problems.append(Problem(missing, remedy, following.address))
         following = replace(following, column=places.get(entry.name, following).column + 1)
     return columns, others, absent, problems
 

@@ -43,11 +43,10 @@ _NAMES = {
     "cm/s2": ("gal",),
     **dict.fromkeys(("kN", "MN", "psf", "psi", "ksi", "Pa", "kPa", "MPa", "plf", "Hz", "g"), ()),
 }
-_UNITS = {
-    name if len(name) == 1 else name.casefold(): unit
-    for unit, others in _NAMES.items()
-    for name in (unit, *others)
-}
+_UNITS: dict[str, str] = {}
+for _unit, _others in _NAMES.items():
+    for _name in (_unit, *_others):
+        _UNITS[_name if len(_name) == 1 else _name.casefold()] = _unit
 _ALSO_A_WORD = frozenset(("min", "k"))  # a minimum, thousands
 
 
@@ -86,8 +85,8 @@ def shows_nothing(code: str, value: object) -> bool:
 def _misleading(section: _Section, unit: str) -> str:
     if scale := _SCALE.search(section.digits):
         return f"divided by {1000 ** len(scale[1]):,}" if len(scale[1]) < 5 else "divided"
-    own, named = unit_named(unit) or unit, list(_units_named(section.text))
-    if not named or own in (name for _, name in named):
+    unit_of_column, named = unit_named(unit) or unit, list(_units_named(section.text))
+    if not named or unit_of_column in (name for _, name in named):
         return ""
     return f"in {named[0][0]}"
 

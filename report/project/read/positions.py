@@ -9,6 +9,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import product
 
 from openpyxl import Workbook
 from openpyxl.cell.cell import MergedCell
@@ -65,11 +66,11 @@ def found_at(book: OpenBook, position: CellPosition) -> Found:
 def check_uncovered(book: OpenBook, *positions: CellPosition) -> None:
     """Raise InputError for the cells that merged ones cover: what was typed there is lost."""
     problems = []
-    for at in positions:
-        sheet = book.book[at.sheet]
-        if isinstance(sheet.cell(at.row, at.column), MergedCell):
-            areas = (area.coord for area in sheet.merged_cells.ranges if at.cell in area)
-            problems.append(merged(at.sheet, next(areas, at.cell)))
+    for position in positions:
+        sheet = book.book[position.sheet]
+        if isinstance(sheet.cell(position.row, position.column), MergedCell):
+            areas = (area.coord for area in sheet.merged_cells.ranges if position.cell in area)
+            problems.append(merged(position.sheet, next(areas, position.cell)))
     if problems:
         raise InputError(list(dict.fromkeys(problems)))
 
@@ -90,12 +91,12 @@ def cells_below(book: OpenBook, heading: CellPosition) -> list[Found]:
 
 def sheets_titled(book: OpenBook, title: str) -> list[Worksheet]:
     """Return the sheet with a title, ignoring case; else those that Numbers made of its tables."""
-    wanted = title.strip().casefold()
+    key = title.strip().casefold()
     titles = {sheet.title.strip().casefold(): sheet for sheet in book.book.worksheets}
-    if wanted in titles:
-        return [titles[wanted]]
+    if key in titles:
+        return [titles[key]]
     # Such as `Arrays - Table 1`: without names and tables of Excel, but with the headings.
-    return [each for name, each in titles.items() if wanted in re.split(" [-–] ", name)]
+    return [sheet for name, sheet in titles.items() if key in re.split(" [-–] ", name)]
 
 
 def labels(book: OpenBook, sheet: Worksheet) -> Sequence[tuple[CellPosition, str]]:
@@ -104,12 +105,14 @@ def labels(book: OpenBook, sheet: Worksheet) -> Sequence[tuple[CellPosition, str
     if sheet.title not in book.labels:
         extent = book.extent(sheet.title)
         # Records that are pasted into a sheet make it long: labels are above them.
-        book.labels[sheet.title] = [
-            (CellPosition(sheet.title, row, column), label_key(value))
-            for row in range(1, min(extent.last_row, SCANNED_ROWS) + 1)
-            for column in range(1, min(extent.last_column, MAX_COLUMNS) + 1)
-            if (value := sheet.cell(row, column).value) is not None
-        ]
+        rows = range(1, min(extent.last_row, SCANNED_ROWS) + 1)
+        columns = range(1, min(extent.last_column, MAX_COLUMNS) + 1)
+        found: list[tuple[CellPosition, str]] = []
+        for row, column in product(rows, columns):
+            value = sheet.cell(row, column).value
+            if value is not None:
+                found.append((CellPosition(sheet.title, row, column), label_key(value)))
+        book.labels[sheet.title] = found
     return book.labels[sheet.title]
 
 
@@ -178,10 +181,10 @@ def unit_size(entry: Entry, unit: str, where: str = "") -> tuple[str, float]:
         if symbol.casefold() == unit.casefold():
             return symbol, si
     problem = f"is '{unit}'" if unit else "is missing"
-    first, *others = accepted
-    wanted = (
+    first, *more_units = accepted
+    remedy = (
         f"give the number in {first}, and write {first}" if first else "it has no unit: delete it"
     )
-    if others:
-        wanted = f"write one of {', '.join(accepted)}"
-    raise InputError(Problem(f"unit of {entry.spoken} {problem}", wanted, where))
+    if more_units:
+        remedy = f"write one of {', '.join(accepted)}"
+    raise InputError(Problem(f"unit of {entry.spoken} {problem}", remedy, where))

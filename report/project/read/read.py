@@ -38,7 +38,7 @@ from report.project.read.locate_cell import (
     gone_cells,
     is_absent,
 )
-from report.project.read.locate_table import FieldColumn, TableFound, find_table
+from report.project.read.locate_table import FieldColumn, find_table
 from report.project.read.positions import FRESH, CellPosition, found_at
 from report.project.read.saved_values import from_outside, not_calculated
 from report.project.read.unseen import by_cell, unseen
@@ -107,7 +107,19 @@ def read_as(
     """Read every field of a whole input, with the errors of single cells and those of a check."""
     gathered = Gathered()
     for section in sections:
-        _read_section(book, section, gathered)
+        if section.may_be_absent and is_absent(book, section):
+            defaults = {entry.name: entry.default for entry in section.entries}
+            gathered.inputs[section.key] = [] if section.is_table else [defaults]
+            continue
+        gathered.inputs[section.key] = []
+        try:
+            if section.is_table:
+                _read_table(book, section, gathered)
+            else:
+                _read_block(book, section, gathered)
+        except InputError as error:
+            gathered.unfound.add(section.key)
+            gathered.add(Place(section.key), error.parts)
     gathered.take(check(gathered.inputs, partial(where, gathered.addresses)))
     hidden = unseen(book, gathered.used)
     marks, titles = by_cell(hidden), book.book.sheetnames
@@ -163,28 +175,11 @@ class Gathered:
         self.problems += located_problems(faults, self.addresses, self.unfound)
 
 
-def _read_section(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
-    gathered.inputs[section.key] = []
-    is_missing = is_absent(book, section)
-    if is_missing and section.may_be_absent:
-        defaults = {entry.name: entry.default for entry in section.entries}
-        gathered.inputs[section.key] += [] if section.is_table else [defaults]
-        return
-    try:
-        if is_missing and not section.is_table:
-            raise InputError(
-                f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
-            )
-        if section.is_table:
-            _read_table(book, section, find_table(book, section), gathered)
-        else:
-            _read_block(book, section, gathered)
-    except InputError as error:
-        gathered.unfound.add(section.key)
-        gathered.add(Place(section.key), error.parts)
-
-
 def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
+    if is_absent(book, section):
+        raise InputError(
+            f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
+        )
     absent = added_later(book, section)
     row = {entry.name: entry.default for entry in absent}
     typed = beside(book, section)
@@ -202,9 +197,9 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
             gathered.add(place, error.parts)
             continue
         # A row that was copied has its label twice: nobody knows which value is meant.
-        for at in typed.get(entry.name, ()):
-            if at != position and at.column == position.column:
-                twice = f"label '{entry.heading}' appears twice, also in {at.address}"
+        for labeled in typed.get(entry.name, ()):
+            if labeled != position and labeled.column == position.column:
+                twice = f"label '{entry.heading}' appears twice, also in {labeled.address}"
                 gathered.add(place, [Problem(twice, "keep one", position.address)])
         cell = found_at(book, position)
         if not cell.is_blank and column.heading != position:
@@ -213,7 +208,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
     for gone, position in gone_cells(book, section):
         _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
     # What a blank cell is computed from must have been read.
-    for typed_cell in sorted(cells_read, key=lambda each: each.is_computed):
+    for typed_cell in sorted(cells_read, key=lambda typed_cell: typed_cell.is_computed):
         _read_field(typed_cell, {}, gathered)
 
 
@@ -225,15 +220,14 @@ def _refuse_gone(gone: GoneInput, place: Place, cell: Found, gathered: Gathered)
         gathered.add(place, [Problem(found, gone.remedy, cell.address)])
 
 
-def _read_table(
-    book: OpenBook, section: SheetSection, table: TableFound, gathered: Gathered
-) -> None:
+def _read_table(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
+    table = find_table(book, section)
     gathered.addresses[Place(section.key)] = table.heading.address
     gathered.add(Place(section.key), table.problems)
-    for other in table.others:
-        label = f"column '{found_at(book, other).shown}'"
+    for heading in table.others:
+        label = f"column '{found_at(book, heading).shown}'"
         ignored = EchoRow(
-            sheet=other.sheet, cell=other.cell, label=label, typed="", unit="", value=IGNORED
+            sheet=heading.sheet, cell=heading.cell, label=label, typed="", unit="", value=IGNORED
         )
         gathered.echo.append(ignored)
     sheet = table.heading.sheet
@@ -253,8 +247,8 @@ def _read_table(
                         _Typed(entry, place, cell, table.columns[entry.name]), cells, gathered
                     )
         for gone, heading in table.gone:
-            at = CellPosition(sheet, number, heading.column)
-            _refuse_gone(gone, Place(section.key), found_at(book, at), gathered)
+            position = CellPosition(sheet, number, heading.column)
+            _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
     read = {place.field for place, _ in gathered.used if place.section == section.key}
     for name, column in table.columns.items():
         if name in read:
@@ -293,16 +287,16 @@ def _read_field(typed: _Typed, cells: Mapping[str, Found], gathered: Gathered) -
         gathered.add(place, [error.parts[0].at(cell.address, entry.spoken)])
         return
     row[entry.name] = value
-    shown = as_used(value, entry, column.unit)
-    if cell.is_blank and shown:
+    value_text = as_used(value, entry, column.unit)
+    if cell.is_blank and value_text:
         computed = f"computed, {entry.rule}" if entry.rule else "computed"
-        shown += f" ({'default' if value == entry.default else computed})"
+        value_text += f" ({'default' if value == entry.default else computed})"
     echoed = EchoRow(
         sheet=cell.sheet,
         cell=cell.cell,
         label=entry.heading,
         typed=cell.text,
         unit=column.unit,
-        value=shown or "—",
+        value=value_text or "—",
     )
     gathered.echo.append(echoed)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from itertools import groupby, islice
+from itertools import chain, groupby, islice
 from typing import Any
 
 from openpyxl.styles.colors import COLOR_INDEX, Color
@@ -76,10 +76,10 @@ class Unseen:
     def words(self) -> str:
         """The cells as ranges: `cells B5, B7:B9`."""
         ranges = list(_ranges(self.cells))
-        more = len(ranges) - _MOST_RANGES
+        n_more = len(ranges) - _MOST_RANGES
         listed = ", ".join(ranges[:_MOST_RANGES])
-        if more > 0:
-            listed += f" and {more} more range{'s' if more > 1 else ''}"
+        if n_more > 0:
+            listed += f" and {n_more} more range{'s' if n_more > 1 else ''}"
         return f"{'cells' if self.are_many else 'cell'} {listed}"
 
     @property
@@ -127,16 +127,19 @@ def warnings(unseen_cells: Iterable[Unseen]) -> Iterator[Finding]:
         return together.sheet, together.kind
 
     for _, group in groupby(sorted(unseen_cells, key=key), key=key):
-        first, *others = group
-        together = replace(first, cells=(*first.cells, *(cell for o in others for cell in o.cells)))
+        parts = list(group)
+        cells = tuple(chain.from_iterable(part.cells for part in parts))
+        together = replace(parts[0], cells=cells)
         text = _SENTENCES[together.kind].format(
             state=_STATES.get(together.state, "hidden"),
             cells=together.words,
             are="are" if together.are_many else "is",
         )
         row, column = together.cells[0]
-        at = f"{together.sheet}!{get_column_letter(column)}{row}"
-        yield replace(warning(f"{together.kind} {together.sheet}", together.place, text), cell=at)
+        address = f"{together.sheet}!{get_column_letter(column)}{row}"
+        yield replace(
+            warning(f"{together.kind} {together.sheet}", together.place, text), cell=address
+        )
 
 
 def _ranges(cells: Iterable[tuple[int, int]]) -> Iterator[str]:
@@ -196,13 +199,13 @@ class _Sight:
             return (Concealment.SHEET,)
         if row in self._rows:
             return (self._rows[row],)
-        return (Concealment.HIDDEN,) if any(column in each for each in self._columns) else ()
+        return (Concealment.HIDDEN,) if any(column in columns for columns in self._columns) else ()
 
 
 def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Concealment]]:
     filtered = tuple(islice(_filtered(sheet), _MOST_FILTERS))
-    for row, said in sheet.row_dimensions.items():
-        if said.hidden or _is_less(said.height, LEAST_HEIGHT):
+    for row, dimension in sheet.row_dimensions.items():
+        if dimension.hidden or _is_less(dimension.height, LEAST_HEIGHT):
             is_filtered = any(row in rows for rows in filtered)
             yield row, Concealment.FILTERED if is_filtered else Concealment.HIDDEN
 

@@ -113,9 +113,9 @@ class SheetOf(Generic[Whole]):
             names = [entry.name for entry in sections[key].entries]
             inputs[key] = [{name: getattr(row, name) for name in names} for row in checked]
         problems = located_problems(self.check(inputs, self.where), self.addresses, self.unfound)
-        other = replace(self, inputs=inputs, problems=tuple(problems))
-        other.refuse(())
-        return other
+        changed = replace(self, inputs=inputs, problems=tuple(problems))
+        changed.refuse(())
+        return changed
 
     def where(self, place: Place) -> str:
         """Return the address of a place; that of its table or sheet if it has no cell."""
@@ -133,7 +133,9 @@ class SheetOf(Generic[Whole]):
             return order[section], row, fields.index(field) if field in fields else -1
 
         if problems:
-            raise InputError(list(dict.fromkeys(each for _, each in sorted(problems, key=rank))))
+            raise InputError(
+                list(dict.fromkeys(problem for _, problem in sorted(problems, key=rank)))
+            )
 
 
 Sheet = SheetOf[ProjectInput]

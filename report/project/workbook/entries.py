@@ -149,8 +149,8 @@ def of_model(entry: Entry, model: type[Frozen]) -> Entry:
         kind = args[0]
         for field in args[1:]:
             constraints += getattr(field, "metadata", [])
-    least = [each.min_length for each in constraints if hasattr(each, "min_length")]
-    most = [each.max_length for each in constraints if hasattr(each, "max_length")]
+    min_lengths = [limit.min_length for limit in constraints if hasattr(limit, "min_length")]
+    max_lengths = [limit.max_length for limit in constraints if hasattr(limit, "max_length")]
     return replace(
         entry,
         kind=kind,
@@ -158,8 +158,8 @@ def of_model(entry: Entry, model: type[Frozen]) -> Entry:
         is_required=info.is_required() and not entry.need,
         default=None if info.is_required() else info.default,
         bounds=_bounds(constraints),
-        min_length=max(least, default=0),
-        max_length=min(most, default=0),
+        min_length=max(min_lengths, default=0),
+        max_length=min(max_lengths, default=0),
     )
 
 

@@ -87,5 +87,5 @@ def rows_of(
         rows.append((section, entry))
         place = (section.key, entry.name)
         for other in sections:
-            rows += [(other, each) for each in other.entries if each.below == place]
+            rows += [(other, below) for below in other.entries if below.below == place]
     return rows

@@ -16,11 +16,8 @@ EXAMPLE = next(path for path in _HOMES if path.is_dir())
 
 def example_files(units: UnitsFirst) -> dict[str, bytes]:
     """Return records/ and documents/ as shipped, and input.xlsx in a system of units, by name."""
-    files = {
-        f"{folder}/{path.name}": path.read_bytes()
-        for folder in ("records", "documents")
-        for path in sorted((EXAMPLE / folder).iterdir())
-    }
+    paths = (*sorted((EXAMPLE / "records").iterdir()), *sorted((EXAMPLE / "documents").iterdir()))
+    files = {f"{path.parent.name}/{path.name}": path.read_bytes() for path in paths}
     project = read(EXAMPLE).project
     issue = project.project.model_copy(update={"units_first": units})
     example = project.model_copy(update={"project": issue})

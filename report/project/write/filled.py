@@ -157,12 +157,12 @@ class WorkbookChange:
         """The cells that were written, by runs of rows: `Arrays!A7:W9, Outlines!A8:D19`."""
         ranges = []
         for sheet in self.book.scans:
-            cells = [each for each in self.written if each.sheet == sheet]
-            rows = sorted({each.row for each in cells})
+            cells = [position for position in self.written if position.sheet == sheet]
+            rows = sorted({position.row for position in cells})
             starts = [row for row in rows if row - 1 not in rows]
             ends = [row for row in rows if row + 1 not in rows]
             for start, end in zip(starts, ends, strict=True):
-                columns = [each.column for each in cells if start <= each.row <= end]
+                columns = [position.column for position in cells if start <= position.row <= end]
                 first = CellPosition(sheet, start, min(columns))
                 last = CellPosition(sheet, end, max(columns))
                 ranges.append(first.address + (f":{last.cell}" if last != first else ""))
@@ -207,12 +207,11 @@ def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
     after = book_of(book.path, changed(book.data, cells, _dependents(book, cells.keys())))
     looks = dict(_grown(book, after))
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
-    formulas = {
-        at: Formula(Translator(formula, last.cell).translate_formula(at.cell))
-        for at, last in looks.items()
-        if (formula := book.formula(last.sheet, last.cell))
-        and is_answer(book.book[last.sheet].cell(last.row, last.column))
-    }
+    formulas = {}
+    for at, last in looks.items():
+        formula = book.formula(last.sheet, last.cell)
+        if formula and is_answer(book.book[last.sheet].cell(last.row, last.column)):
+            formulas[at] = Formula(Translator(formula, last.cell).translate_formula(at.cell))
     return book_of(book.path, changed(after.data, formulas, looks=looks)) if looks else after
 
 
@@ -230,13 +229,11 @@ def _grown(before: OpenBook, after: OpenBook) -> Iterator[tuple[CellPosition, Ce
 
 def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
     """Return the formulas that may refer to cells, also by other formulas."""
-    areas = {
-        CellPosition(title, *coordinate_to_tuple(cell)): [
-            _area(reference, title) for reference in references(scan.formula(cell))
-        ]
-        for title, scan in book.scans.items()
-        for cell in scan.formulas
-    }
+    areas = {}
+    for title, scan in book.scans.items():
+        for cell in scan.formulas:
+            at = CellPosition(title, *coordinate_to_tuple(cell))
+            areas[at] = [_area(reference, title) for reference in references(scan.formula(cell))]
     titles, dependents = {title.casefold() for title in book.scans}, set(cells)
 
     def may_refer(title: str, bounds: tuple[int, int, int, int] | None) -> bool:
@@ -265,12 +262,9 @@ def _area(reference: str, title: str) -> tuple[str, tuple[int, int, int, int] | 
 def withdrawn(change: WorkbookChange) -> list[str]:
     """Empty who confirmed the distances from the drawing, and when, if they changed; say so."""
     before = change.sheet_before
-    stated = {
-        Place("project", 0, field): row[field]
-        for row in before.inputs["project"]
-        for field in ("drawing_confirmed_by", "drawing_confirmed_date", "drawing_covered")
-        if row.get(field)
-    }
+    row = before.inputs["project"][0] if before.inputs["project"] else {}
+    fields = ("drawing_confirmed_by", "drawing_confirmed_date", "drawing_covered")
+    stated = {Place("project", 0, field): row[field] for field in fields if row.get(field)}
     if not stated or _drawn(before) == _drawn(read_book(change.book)):
         return []
     emptied = cells(before, dict.fromkeys(stated))

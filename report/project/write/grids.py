@@ -220,12 +220,12 @@ def _write_column(
 def _fold(sheet: Worksheet, columns: Sequence[GridColumn], rows: Sequence[Frozen]) -> None:
     """Group the columns that are rarely needed; those without a value are closed."""
     folded = [(count, c) for count, c in enumerate(columns, start=FIRST) if c.is_folded]
-    used = {
-        column.name
-        for _, column in folded
-        if (entry := column.entry)
-        and any(_unless_default(getattr(row, entry.name), entry) not in (None, "") for row in rows)
-    }
+    used = set()
+    for _, column in folded:
+        if column.entry:
+            values = [getattr(row, column.name) for row in rows]
+            if any(_unless_default(value, column.entry) not in (None, "") for value in values):
+                used.add(column.name)
     for count, column in folded:
         dimension = sheet.column_dimensions[get_column_letter(count)]
         dimension.outlineLevel = 1

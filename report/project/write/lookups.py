@@ -131,20 +131,15 @@ def _write_neighbors(sheet: Worksheet, row: int) -> int:
     kinds = [(kind.value, *neighbors) for kind, neighbors in KINDS.items()]
     row = _write_table(sheet, row, words, heads, kinds, {"kinds": "A:C"})
     words = ("Neighbors", "Which of the separations on the sheet Provisions each has")
-    rows = [(each.value, float(number)) for each, number in SEPARATION_ROWS.items()]
+    rows = [(neighbor.value, float(number)) for neighbor, number in SEPARATION_ROWS.items()]
     return _write_table(sheet, row, words, ("Neighbor", "Separation"), rows, {"neighbors": "A:B"})
 
 
 def _write_units(sheet: Worksheet, row: int) -> None:
     words = ("Units of headings", "In inches")
-    rows = [
-        (f"{label} [{unit}]", size_m / INCH_M)
-        for label in dict.fromkeys(
-            entry.heading
-            for key in ("arrays", "objects", "clearances")
-            for entry in SECTION[key].entries
-            if entry.name in ("cg_height_m", "height_m", "provided_m")
-        )
-        for unit, size_m in LENGTHS.items()
-    ]
+    lengths = (("arrays", "cg_height_m"), ("objects", "height_m"), ("clearances", "provided_m"))
+    rows = []
+    for key, field in lengths:
+        label = SECTION[key].entry(field).heading
+        rows += [(f"{label} [{unit}]", size_m / INCH_M) for unit, size_m in LENGTHS.items()]
     _write_table(sheet, row, words, ("Heading", "In inches"), rows, {"inches": "A:B"})

@@ -38,13 +38,12 @@ class Overwritten:
 
 def overwritten(book: OpenBook) -> tuple[Overwritten, ...]:
     """Return the blue cells that have lost their formula, by sheet, column and row."""
-    lost = [
-        Overwritten(
-            position=position, content=found_at(book, position), title=_title(book, position)
-        )
-        for position in _blue(book)
-        if not (formula := book.formula(position.sheet, position.cell)) or _BROKEN in formula
-    ]
+    lost = []
+    for position in _blue(book):
+        content = found_at(book, position)
+        if not content.formula or _BROKEN in content.formula:
+            title = _title(book, position)
+            lost.append(Overwritten(position=position, content=content, title=title))
     titles = book.book.sheetnames
     lost.sort(key=lambda o: (titles.index(o.position.sheet), o.position.column, o.position.row))
     return tuple(lost)

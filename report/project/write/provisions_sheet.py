@@ -45,7 +45,9 @@ def write_rules(book: Workbook, tables: layout.Tables) -> None:
     sheet = book.create_sheet(PROVISIONS)
     style.put_title(sheet, PROVISIONS, _PROVISIONS_HINT)
     style.put(sheet, 3, 1, _MARKS, color=style.GRAY, size=9, wrap=False)
-    names = (head for rules in RULE_SETS.values() for head in (rules.name, "Clause"))
+    names: list[str] = []
+    for rules in RULE_SETS.values():
+        names += [rules.name, "Clause"]
     head = 5
     layout.name_range("rule_sets", sheet, f"${_FROM}${head}:${_TO}${head}")
     style.put_values(sheet, head, (*_HEADS, *names), are_heads=True)

@@ -212,7 +212,7 @@ def suggest(sheet: Worksheet, cells: str, source: str, title: str, message: str)
 
 
 def _add(
-    sheet: Worksheet, cells: str, rule: DataValidation, title: str, message: str, wanted: str
+    sheet: Worksheet, cells: str, rule: DataValidation, title: str, message: str, remedy: str
 ) -> None:
     rule.allow_blank = True
     rule.showInputMessage = rule.showErrorMessage = True
@@ -220,7 +220,7 @@ def _add(
     rule.promptTitle = rule.errorTitle = title[:32]
     rule.prompt = message[:255]
     choice = "Click Retry to correct the entry, or Cancel to restore the previous one."
-    error = f"{title}: {wanted}. {choice}"
+    error = f"{title}: {remedy}. {choice}"
     rule.error = error if len(error) <= 225 else f"{error[:224]}…"
     rule.add(cells)
     sheet.add_data_validation(rule)
