@@ -29,6 +29,7 @@ from report.project.read.read import read, read_book
 from report.project.read.what_if import cells
 from report.project.write.filled import WorkbookChange, withdrawn
 from report.project.write.template import template
+from report.provenance.release import version
 from report.text.units import LENGTHS
 from report.web import views
 from report.web.answers import answer
@@ -84,6 +85,7 @@ def state(workbook: Path, job: Json) -> Json:
             "name": opened.sheet.project.project.name,
             "sha256": opened.sheet.sha256,
             "id": opened.id,
+            "software": f"Roofslip {version()}",
         },
         "lacks": [
             *(["motions"] if not opened.shaking.motions else []),
@@ -225,8 +227,14 @@ def add_clearances(workbook: Path, job: Json) -> Json:
 
 
 def verdict(workbook: Path, job: Json) -> Json:
-    """Return the verdict at values, which less friction changes only where it is OK."""
+    """Return the verdict at values, which less friction changes only where it is OK.
+
+    While a search moves it is provisional: NG where the largest runs alone are.
+    """
     given = _open(workbook).at(job["values"])
+    if job.get("moving"):
+        found = given.moving(job.get("reference", {})).verdict
+        return stamp(found, found.value)
     found = given.assessed(Extent.AS_GIVEN).verdict
     # Less friction turns an OK into one with conditions, and nothing else.
     if found is Verdict.OK:

@@ -74,7 +74,7 @@ export function createApi(announce, room) {
     assess: (moving, values, whole = false) => computed("assess", { moving, whole, values, room: room() }, moving ? "moving" : "assess"),
     computed,
     // Of no page: it makes nothing stale that the page shows.
-    verdict: (values) => asked("/api/verdict", about({ values })),
+    verdict: (values, moving = false) => asked("/api/verdict", about({ values, moving })),
     startPackage: (values) => asked("/api/package", about({ values })),
     packageState: (id) => asked(`/api/package/${id}`, { signal: AbortSignal.timeout(PATIENCE_MS) }),
     cancelPackage: (id) => asked(`/api/package/${id}`, { method: "DELETE" }),

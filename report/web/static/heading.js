@@ -38,11 +38,12 @@ export function showErrors({ problems, tables, is_alone: isAlone, lacks }, { pro
 }
 
 /** Show the project that is open in place of errors. */
-export function showProject({ project: { name, file, sha256, is_example: isExample } }) {
+export function showProject({ project: { name, file, sha256, software, is_example: isExample } }) {
   for (const id of ["problems", "outline"]) part(id).hidden = true;
   part("workspace").hidden = false;
   part("welcome").hidden = !isExample;
   named(name, file, html("span", { class: "screen-only", title: sha256 }, `, SHA-256 ${sha256.slice(0, 12)}`), html("span", { class: "print-only" }, `, SHA-256 ${sha256}`));
+  part("printed").textContent = `${software}, printed ${new Date().toISOString().slice(0, 10)}. Initials ________`;
 }
 
 /** Name what the page shows, and its file. */

@@ -5,6 +5,7 @@
 import { isSame, typedOf } from "./changes.js";
 
 const REST_MS = 80; // without a move, after which a slider rests
+const GAP_MS = 150; // at least, from one provisional answer that is asked to the next: half the work
 const STEP_MS = 400; // after which a step is answered provisionally, if the full answer is not there
 
 /** The whole sheet of the plan. */
@@ -80,7 +81,7 @@ function createRuns(state, set, assess, fail) {
     }
   }
 
-  const askMoving = createLane(async () => isFull || ask(true));
+  const askMoving = createLane(async () => isFull || ask(true), GAP_MS);
   const askFull = createLane(async () => isMoving || ask(false));
 
   // The answer stays beside other values, without its verdict.
@@ -143,8 +144,8 @@ export function onChange(names, draw) {
   };
 }
 
-/** Return a function that runs a task once at a time; calls meanwhile become one more run. */
-export function createLane(task) {
+/** Return a function that runs a task once at a time, and in so many ms; calls meanwhile become one more run. */
+export function createLane(task, gap = 0) {
   let isOpen = false;
   let isWaiting = false;
   async function run() {
@@ -153,7 +154,11 @@ export function createLane(task) {
       return;
     }
     isOpen = true;
+    const rest = gap && new Promise((done) => {
+      setTimeout(done, gap);
+    });
     await task();
+    await rest;
     isOpen = false;
     if (isWaiting) {
       isWaiting = false;

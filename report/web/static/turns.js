@@ -35,21 +35,38 @@ export function createTurns(ask, show) {
   return { stop, start: (sliders, values, isNg) => search(sliders, values, isNg).catch(stop) };
 }
 
-/** Return where a verdict changes between a value of a slider and its end; both sides are asked. */
+/**
+ * Return where a verdict changes between a value of a slider and its end; both sides are asked in full, and
+ * what lies between is found by provisional verdicts, or in full where these lead elsewhere.
+ */
 export async function turnOf({ id, least, greatest, step }, values, isNg, ask, isWanted) {
   const way = (EASES[id] ?? -1) * (isNg ? 1 : -1);
   const at = (steps) => Number((values[id] + way * steps * step).toFixed(6));
-  let [before, after] = [0, Math.floor(((way > 0 ? greatest : least) - values[id]) / (way * step) + 1e-6)];
-  const verdictAt = (steps) => ask({ ...values, [id]: at(steps) });
-  let verdict = after > 0 && (await verdictAt(after));
-  if (!verdict || isOf(verdict, isNg)) return null;
+  const known = new Map(); // in full, by steps
+  const verdictAt = async (steps, isQuick) => {
+    if (!known.has(steps) && isQuick) return ask({ ...values, [id]: at(steps) }, true);
+    if (!known.has(steps)) known.set(steps, await ask({ ...values, [id]: at(steps) }, false));
+    return known.get(steps);
+  };
+  const end = Math.floor(((way > 0 ? greatest : least) - values[id]) / (way * step) + 1e-6);
+  const last = end > 0 && (await verdictAt(end));
+  if (!last || isOf(last, isNg)) return null;
+  const isTurned = async (steps, isQuick) => !isOf(await verdictAt(steps, isQuick), isNg);
+  let [before, after] = await between([0, end], (steps) => isTurned(steps, true), isWanted);
+  if (before > 0 && (await isTurned(before))) [before, after] = await between([0, before], isTurned, isWanted);
+  else if (!(await isTurned(after))) [before, after] = await between([after, end], isTurned, isWanted);
+  return { value: at(after), verdict: (await verdictAt(after)).text, before: at(before) };
+}
+
+// The steps beside each other between which the verdict turns.
+async function between([from, to], isTurned, isWanted) {
+  let [before, after] = [from, to];
   while (after - before > 1 && isWanted()) {
     const middle = Math.floor((before + after) / 2);
-    const found = await verdictAt(middle);
-    if (isOf(found, isNg)) before = middle;
-    else [after, verdict] = [middle, found];
+    if (await isTurned(middle)) after = middle;
+    else before = middle;
   }
-  return { value: at(after), verdict: verdict.text, before: at(before) };
+  return [before, after];
 }
 
 function isOf({ look }, isNg) {

@@ -58,8 +58,13 @@ STEPS = {
     "while a slider moves one request is open and only the newest values wait": ("""
         for (const x of [1, 2, 3]) session.move({ x });
         const open = asked.length;
-        asked[0].done(); await tick();
-        return [open, asked.map(({ moving, values }) => [moving, values.x]), answers()];""",
+        asked[0].done();
+        while (asked.length < 2) {
+          session.move({ x: 3 });
+          await pause(20);
+        }
+        const two = asked.slice(0, 2).map(({ moving, values }) => [moving, values.x]);
+        return [open, two, answers()];""",
         [1, [[True, 1], [True, 3]], [["moving", 1]]]),
     "the full model answers at rest, and a late provisional answer is dropped": ("""
         session.move({ x: 1 });
@@ -170,16 +175,18 @@ def test_a_value_is_written_with_its_unit_and_what_is_changed_by_its_name(page):
 
 
 TURN = """
-    const asked = [];
-    const ask = async (values) => {
-      asked.push(values[g.id]);
-      const isNg = g.id === "intensity" ? values[g.id] > 1.065 : values[g.id] < 1.065;
+    const asked = [], inFull = [];
+    const ask = async (values, isQuick) => {
+      (isQuick ? asked : inFull).push(values[g.id]);
+      const at = 1.065 + (isQuick ? g.off : 0);
+      const isNg = g.id === "intensity" ? values[g.id] > at : values[g.id] < at;
       return isNg ? { look: "ng", text: "NG" } : { look: "conditions", text: "OK with conditions" };
     };
     const slider = { id: g.id, least: 0.5, greatest: g.greatest, step: 0.01 };
     const values = { [g.id]: g.value, slope: 0 };
     const found = await m.turnOf(slider, values, g.isNg, ask, () => asked.length < 20);
-    return [found, asked.length < 10, Math.max(...asked)];"""
+    const areBoth = found && [found.before, found.value].every((one) => inFull.includes(one));
+    return [found, areBoth, asked.length < 10, inFull.length, Math.max(...asked, ...inFull)];"""
 
 
 @pytest.mark.parametrize(
@@ -192,13 +199,17 @@ TURN = """
         ("friction", 0.8, True, 1.05, None),  # at the end of the slider the verdict is the same
     ],
 )
-def test_a_mark_is_where_the_verdict_changes_and_both_sides_were_asked(
-    page, slider, value, is_ng, greatest, expected
+@pytest.mark.parametrize("off", [0.0, -0.02, 0.02])
+def test_a_mark_is_where_the_verdict_changes_and_both_sides_were_asked_in_full(
+    page, slider, value, is_ng, greatest, expected, off
 ):
-    given = {"id": slider, "value": value, "isNg": is_ng, "greatest": greatest}
-    found, is_quick, most = called(page, "turns", TURN, given)
+    """Also where the provisional verdicts that lead there are not the full ones."""
+    given = {"id": slider, "value": value, "isNg": is_ng, "greatest": greatest, "off": off}
+    found, are_both, is_quick, n_full, most = called(page, "turns", TURN, given)
     assert is_quick
+    assert n_full <= (3 if not off else 12)
     assert most <= greatest
+    assert bool(are_both) == bool(expected)
     assert (found and tuple(found[name] for name in ("value", "verdict", "before"))) == expected
 
 
