@@ -20,6 +20,7 @@ from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from textwrap import fill
+from typing import TYPE_CHECKING, Literal
 
 import pypdfium2
 from matplotlib.figure import Figure
@@ -29,6 +30,9 @@ import report
 from report.figures.base import ACCENT, style
 from report.figures.plan import array_section
 from solver import Model
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page, ViewportSize
 
 ROOT = Path(__file__).resolve().parents[1]
 PICTURES = ROOT / "docs" / "pictures"
@@ -111,7 +115,7 @@ def _workbook(folder: Path) -> None:
 
 
 def _browser(charts: Path) -> None:
-    from fixtures.browser import at_rest, chromium, moved, opened, quiet_page, served
+    from fixtures.browser import chromium, quiet_page
 
     with chromium() as browser, quiet_page(browser) as page:
         example = report.read_project(ROOT / "projects" / "example").project
@@ -125,18 +129,39 @@ def _browser(charts: Path) -> None:
             page.evaluate("document.fonts.ready")
             page.locator("svg").screenshot(path=charts / "chart.png")
             _save(Image.open(charts / "chart.png"), name)
-        with served() as (address, _):
-            opened(page, address)
-            moved(page, "friction", 0.8)
-            at_rest(page)
-            page.screenshot(path=charts / "page.png")
-            _save(Image.open(charts / "page.png"), "browser.png")
-            moved(page, "friction", 1.0)
-            at_rest(page)
-            page.get_by_role("tab", name="Watch it slide").click()
-            page.get_by_role("slider", name="Time").fill("23.3")
-            page.screenshot(path=charts / "slide.png")
-            _save(Image.open(charts / "slide.png"), "browser-slide.png")
+        _page(page, charts / "page.png")
+
+
+LAPTOP, PHONE = {"width": 1366, "height": 657}, {"width": 390, "height": 844}
+"""A laptop of 1366 × 768 pixels without what its browser takes."""
+
+
+def _page(page: Page, path: Path) -> None:
+    """Show the page with less friction, light and dark and on a phone, and a run in motion."""
+    from fixtures.browser import at_rest, moved, opened, served
+
+    def shot(name: str, size: ViewportSize, scheme: Literal["light", "dark"] = "light") -> None:
+        page.set_viewport_size(size)
+        page.emulate_media(color_scheme=scheme)
+        page.wait_for_timeout(3000)  # a sheet of the plan for this width
+        at_rest(page)
+        page.screenshot(path=path)
+        _save(Image.open(path), name)
+
+    with served() as (address, _):
+        opened(page, address)
+        moved(page, "friction", 0.8)
+        at_rest(page)
+        page.locator("#turn-friction:not(.is-idle)").wait_for(timeout=60_000)
+        shot("browser.png", LAPTOP)
+        shot("browser-dark.png", LAPTOP, "dark")
+        shot("browser-phone.png", PHONE)
+        page.set_viewport_size(LAPTOP)
+        page.click("#reset-all")
+        at_rest(page)
+        page.get_by_role("tab", name="Watch it slide").click()
+        page.get_by_role("slider", name="Time").fill("23.3")
+        shot("browser-slide.png", LAPTOP)
 
 
 def _models(manifest: Path) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 from report.assessment.assessment import Assessment
@@ -18,7 +19,6 @@ from report.assessment.design.routes import NOT_PERMITTED
 from report.assessment.design.rule_set import MEANING
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
-from report.assessment.remedies.remedies import remedies
 from report.drawing.sheet import unit_format
 from report.pages.attention import attention
 from report.pages.checks import verdict_sentence
@@ -54,6 +54,7 @@ def answer(
     missing = [near for near in assessment.neighbors if near.is_missing]
     designs = {item.id: _design(marks, item, is_provisional) for item in arrays}
 
+    reasons = [] if is_provisional else list(_reasons(assessment))
     # What less friction would change is computed after the rest; only an OK may change by it.
     is_whole = is_provisional or assessment.at_reduced_friction is not None
     may_change = not is_whole and assessment.verdict is Verdict.OK
@@ -72,12 +73,12 @@ def answer(
         else stamp(assessment.verdict, assessment.verdict.value),
         "line": "" if is_provisional else _LESS if may_change else governing_words(assessment),
         "worst": _worst(assessment, is_provisional),
-        "next": "" if is_provisional or may_change else _next_step(assessment),
+        "next": "" if is_provisional or may_change else _next_step(assessment, reasons),
         # What it rests on; the reasons are listed below it.
         "verdict_text": None
         if is_provisional or may_change
         else verdict_sentence(assessment, "here"),
-        "reasons": [] if is_provisional else list(_reasons(assessment)),
+        "reasons": reasons,
         # Of what is not whole, the rest is asked next.
         "pending": "" if is_whole else _LESS,
         "arrays": {
@@ -153,12 +154,11 @@ def _of_ratio(text: str, value: float) -> Mapping[str, Any]:
     return {"text": text, "ratio": finite(value), "ratio_text": said}
 
 
-def _next_step(assessment: Assessment) -> str:
+def _next_step(assessment: Assessment, reasons: Sequence[Mapping[str, Any]]) -> str:
     """Return what to do next: what is enough, else what closes the first open check."""
-    if assessment.verdict is Verdict.NG and (found := remedies(assessment, may_run=False)).together:
-        return found.sentence
+    enough = (reason["text"] for reason in reasons if reason["level"] == "remedy")
     closing = (check.to_close for check in assessment.open)
-    return next(filter(None, closing), "")
+    return next(chain(enough, filter(None, closing)), "")
 
 
 def _reasons(assessment: Assessment) -> Iterator[Mapping[str, Any]]:

@@ -4,7 +4,7 @@ import pytest
 
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
-from report.assessment.assess import assess, reassess
+from report.assessment.assess import Extent, assess, reassess
 from report.assessment.assessment import Assessment
 from report.assessment.design.friction import with_friction
 from report.assessment.design.verdict import Verdict
@@ -116,7 +116,11 @@ def test_the_headline_is_the_check_that_governs_with_its_ratio_and_what_to_do_ne
     ratio = assessed.governing_gap().demand_capacity
     assert shown["worst"]["text"].startswith("Clearance A1 to A2, and ")
     assert shown["worst"]["ratio"] == pytest.approx(ratio)
-    assert shown["next"].startswith("Move A2 44.6 in (1133 mm) south, ")
+    # What is enough is known once less friction is.
+    assert shown["next"].startswith("Provide wiring slack")
+    whole = reassess(assessed, assessed.project, extent=Extent.LESS_FRICTION)
+    enough = answer(whole, is_provisional=False)["next"]
+    assert enough.startswith("Move A2 44.6 in (1133 mm) south, ")
     moving = answer(assessed, is_provisional=True)
     assert moving["worst"] == shown["worst"] | {"text": "Clearance A1 to A2"}
     assert moving["next"] == ""
