@@ -155,7 +155,9 @@ def _names() -> str:
     rows = ["| function | does |", "|---|---|"]
     for name, found in objects.items():
         if inspect.isfunction(found):
-            given = ", ".join(inspect.signature(found).parameters)
+            stars = {inspect.Parameter.VAR_POSITIONAL: "*", inspect.Parameter.VAR_KEYWORD: "**"}
+            parameters = inspect.signature(found).parameters.values()
+            given = ", ".join(f"{stars.get(each.kind, '')}{each.name}" for each in parameters)
             rows.append(f"| `{name}({given})` | {_first(found)} |")
     rows += ["", "| class | is |", "|---|---|"]
     rows += [

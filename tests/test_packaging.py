@@ -28,6 +28,7 @@ TOP_LEVEL = {
     "projects", "tests", "docs", "mkdocs.yml", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md",
     "CITATION.cff", "LICENSE", ".ci", ".gitignore", ".pre-commit-config.yaml", "Dockerfile",
     ".dockerignore", "roofslip.py", "roofslip.cmd", ".gitattributes", ".git_archival.json",
+    ".github",
 }  # fmt: skip
 
 
@@ -84,6 +85,13 @@ def test_the_top_level_and_benchmarks_are_as_planned_and_every_dependency_import
     tests, bench = ({file.name for file in TESTS.glob(glob)} for glob in ("*.py", "bench/*.py"))
     assert tests.isdisjoint(bench)
     assert "./roofslip test" in (ROOT / ".ci" / "run").read_text()
+
+
+def test_the_subjects_of_commits_fit_a_line(tracked):
+    """Of those after November 2026: some before are longer."""
+    log = ["git", "log", "--since=2026-12-01", "--no-merges", "--format=%s"]
+    said = subprocess.run(log, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    assert [subject for subject in said.splitlines() if len(subject) > 72] == []
 
 
 def name_of(requirement):
