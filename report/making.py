@@ -23,6 +23,7 @@ from report.package.html import pages
 from report.page_file.page import page
 from report.project.check.covered import to_record
 from report.project.check.finding_lines import lines
+from report.project.model.choices import PackageEdition
 from report.project.read.read import read
 from report.project.read.what_if import cells
 from report.project.read.workbook_data import Sheet
@@ -105,6 +106,11 @@ def make(
     sheet_counts: list[int] = []
     short = fingerprint(sheet, motions)
     pdf = lay_out(html, attachments(files, results, short), sheet_counts.append)
+    if assessment.project.options.package_edition is PackageEdition.LETTER and sheet_counts[0] > 2:
+        raise InputError(
+            f"Options: edition is letter, of two sheets; what is entered takes {sheet_counts[0]}: "
+            "choose plan check"
+        )
 
     progress(Step("writing the result tables"))
     browser_page = page(html, assessment, short, results) if has_page else b""

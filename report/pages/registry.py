@@ -32,6 +32,7 @@ from report.pages import (
     model,
     motions,
     notes,
+    permit,
     plan,
     provisions,
     records,
@@ -99,6 +100,12 @@ PAGES = (
     _complete("symbols", "Symbols", _alone(symbols.page)),
 )
 
+# Of the edition letter.
+LETTER_PAGES = (
+    Page("permit", "Displacements and separations", _alone(permit.letter)),
+    Page("permit-plan", "Roof plan and conditions", _alone(permit.plan)),
+)
+
 # Pages that need runs: a package without motions does not have them.
 OF_MOTIONS = frozenset(
     {"motions", "results", "comparison", "model", "accuracy", "hashes", "spectra", "histories"}
@@ -114,6 +121,8 @@ def pages_of(
     edition: PackageEdition, since: Changes, *, has_motions: bool = True
 ) -> tuple[Page, ...]:
     """Return the pages of a package: with the changes only where they are asked for."""
+    if edition is PackageEdition.LETTER:
+        return LETTER_PAGES
     left_out = frozenset() if has_motions else OF_MOTIONS
     editions = PackageEdition.PLAN_CHECK, edition
     pages = [page for page in PAGES if page.edition in editions and page.id not in left_out]

@@ -17,7 +17,7 @@ from report.project.check.plan_faults import plan_faults
 from report.project.check.required_cells import missing
 from report.project.check.site_faults import site_faults
 from report.project.model.array import slope_rad
-from report.project.model.choices import SlopeUnit
+from report.project.model.choices import PackageEdition, SlopeUnit
 from report.project.model.finding import Finding
 from report.project.model.input_rows import InputRow, Inputs
 from report.project.model.options import factors
@@ -56,6 +56,7 @@ def faults(inputs: Inputs, where: Where) -> list[Finding]:
         link_faults,
         _overrides,
         _smaller_events,
+        _letter_edition,
     )
     found: list[Finding] = []
     for check in checks:
@@ -127,6 +128,26 @@ def _smaller_events(inputs: Inputs, where: Where) -> Iterator[Finding]:
             remedy = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
             fault = f"smaller events is '{cut(text)}'"
             yield Finding.error(place, fault, f"{remedy}, such as 0.50, 0.25")
+
+
+MOST_IN_LETTER = 6
+
+
+def _letter_edition(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    """Yield what the two sheets of the edition letter have no place for."""
+    n_arrays = len(inputs["arrays"])
+    wanted = "choose plan check or complete, or delete what the letter does not have"
+    for place, edition in column(inputs, ("options",), "package_edition"):
+        if edition != PackageEdition.LETTER:
+            continue
+        if n_arrays > MOST_IN_LETTER:
+            fault = f"edition is letter with {n_arrays} arrays, of which it has at most six"
+            yield Finding.error(place, fault, "choose plan check or complete")
+        if inputs["motions"]:
+            fault = "edition is letter, which is not by analysis, and motions are given"
+            yield Finding.error(place, fault, wanted)
+        if inputs["overrides"]:
+            yield Finding.error(place, "edition is letter, and provisions are overridden", wanted)
 
 
 def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:

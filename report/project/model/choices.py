@@ -236,6 +236,7 @@ class PackageEdition(StrEnum):
 
     PLAN_CHECK = "plan check"
     COMPLETE = "complete"
+    LETTER = "letter"
 
 
 class PlanPaper(StrEnum):

@@ -33,7 +33,8 @@ OPTIONS = block("options", "Options", "Options", Options, "The defaults suit mos
     Entry("Service-life study", "study_years", "years.json", is_new=True, former="Study of years",
           note="years.json of a study. The package attaches it and prints it for information."),
     Entry("Edition", "package_edition", "plan check", note="Complete adds input echo, table of"
-          " spectra, histories, paths, symbols and full hashes."),
+          " spectra, histories, paths, symbols and full hashes. Letter is two sheets for a permit,"
+          " with one to six arrays by the prescriptive displacement."),
     Entry("Results letter", "letter", "No", former="Letter of results",
           note="Yes if the package contains a letter to the client with the results."),
     Entry("Sheet size of the roof plan", "plan_paper", "by size", former="Paper of the roof plan",

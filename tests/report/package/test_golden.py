@@ -4,12 +4,21 @@
 """
 
 import re
-from functools import partial
+from functools import cache, partial
 
 import pytest
 
 from fixtures import assessments, pages
 from fixtures.paths import GOLDEN
+from report.pages.registry import package_data
+from report.project.model.choices import PackageEdition
+
+
+@cache
+def permit():
+    """The example without motions, in the edition letter."""
+    return package_data(assessments.without_motions(), edition=PackageEdition.LETTER)
+
 
 SETS = {
     "": assessments.usual,
@@ -19,6 +28,7 @@ SETS = {
     "conditions": partial(assessments.shipped, "conditions"),
     "campus": partial(assessments.shipped, "campus"),
     "without-motions": assessments.without_motions,
+    "permit": permit,
 }
 ALIKE = {"contents", "plan", "echo", "symbols"}
 """Parts that other projects print as the first one does."""
@@ -42,6 +52,7 @@ CHOSEN = {
     "campus": ["results", "limits"],
     "without-motions": ["cover", "contents", "letter", "summary", "basis", "inputs", "method",
                         "limits", "records", "notes"],
+    "permit": ["permit", "permit-plan"],
 }  # fmt: skip
 PAGES = [(name, key) for name, keys in CHOSEN.items() for key in keys]
 

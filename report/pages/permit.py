@@ -1,0 +1,109 @@
+"""The edition letter: a letter with the table by array, then the plan and the conditions.
+
+For a permit set: one to six arrays by the prescriptive displacement, on two sheets. What it has no
+room for is refused by `report.project.check.faults`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from report.assessment.checks.sentence import texts
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.friction import mu_words
+from report.assessment.design.separation import importance_factor
+from report.document.columns import centered, plain, required, text, words
+from report.document.tables import Column, Table, headed, listed, stamp
+from report.drawing.sheet import unit_format
+from report.pages import cover
+from report.pages.checks import verdict_sentence
+from report.pages.clearance_tables import plan_schedule
+from report.pages.marks import prescriptive_key
+from report.pages.parts import PackageData, friction_report
+from report.pages.symbols import with_symbols
+from report.text.letter_case import lowered
+from report.text.units import number
+from solver.rules.provisions import SEPARATION_KEYS, Neighbor, required_separation
+
+_SEPARATIONS = {
+    "To a similar array": Neighbor.LIKE,
+    "To an object or other array": Neighbor.FIXED,
+    "To an edge with parapet": Neighbor.PARAPET,
+    "To an edge without": Neighbor.EDGE,
+}
+
+
+def letter(package: PackageData) -> Mapping[str, object]:
+    """Return the first sheet: project, verdict, and what each array requires."""
+    done, data = package.assessment, package.data
+    factors = {key: number(done.rules[key], 2) for key in SEPARATION_KEYS.values()}
+    return {
+        **cover.page(package),
+        "kind": "letter for a permit",
+        "verdict": stamp(done.verdict, done.verdict.value),
+        "verdict_sentence": verdict_sentence(done, "on the next sheet"),
+        "site": data.site,
+        "s_ds": number(data.site.s_ds, 3),
+        "i_e": number(data.site.i_e, 2),
+        "confirmed": data.confirmed,
+        "prescriptive_clause": done.rules.values[prescriptive_key(done.governing)].clause,
+        "clause": package.marks.clause("separation_fixed"),
+        "factors": factors,
+        "has_importance": done.rules.importance_in_separation,
+        "arrays": _arrays(package),
+        "tests": data.friction_tests,
+        "report": friction_report(data.friction_tests),
+        "fingerprint": package.fingerprint,
+        "workbook": done.sheet.path.name,
+    }
+
+
+def _arrays(package: PackageData) -> Table:
+    """Return slope, friction, displacement and the four separations of each array."""
+    columns: list[Column] = [
+        (words("Array", 0.9), lambda item: item.id),
+        (plain("Slope", 2, "deg", 0.8), lambda item: math.degrees(item.array.slope_rad)),
+        (text("μ"), lambda item: mu_words(item.array.friction)),
+        (required("Δ", 0.8), lambda item: item.design_m, package.marks.design),
+        *(_separation(package, head, neighbor) for head, neighbor in _SEPARATIONS.items()),
+        (centered("Verdict", 1.2), package.assessment.array_verdict),
+    ]
+    fmt = replace(package.fmt, systems=1)
+    return listed(package.assessment.arrays, columns, fmt, kind="compact")
+
+
+def _separation(package: PackageData, head: str, neighbor: Neighbor) -> Column:
+    rules, i_e = package.assessment.rules, package.data.site.i_e
+    mark = package.marks.of(SEPARATION_KEYS[neighbor])
+
+    def separation_m(item: ArrayAssessment) -> float:
+        importance = importance_factor(rules, neighbor, i_e=i_e, i_p=item.array.i_p)
+        return required_separation(
+            rules, neighbor, design_m=item.permitted_m, importance=importance
+        )
+
+    return required(head, 1.2), separation_m, lambda _: mark
+
+
+def plan(package: PackageData) -> Mapping[str, object]:
+    """Return the second sheet: the schedule beside the plan, and what must be met."""
+    done, data = package.assessment, package.data
+    rows = []
+    for check in done.open:
+        found, limit = texts(check, data.us_first, is_both=False)
+        title = f"{check.subject}: {lowered(check.title)}" if check.subject else check.title
+        required_by = f"{limit} ({check.clause})" if check.clause else limit
+        cells = (title, found, required_by, check.actor.value)
+        rows.append((*map(with_symbols, cells), stamp(check.verdict)))
+    heads = ("Open", 2.0), ("Found", 2.4), ("Required", 3.0), ("Who acts", 0.9), ("", 0.8, "center")
+    printed = package.printed_plan
+    return {
+        "sheet": printed.size.sheet,
+        "width_in": number(printed.size.wide, 2),
+        "unnamed": ", ".join(printed.unnamed),
+        "schedule": plan_schedule(package, replace(unit_format(done), systems=1, none="none")),
+        "open_checks": headed(*heads, rows=rows, kind="compact"),
+        "n_open": len(rows),
+    }
