@@ -198,8 +198,8 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     (tmp_path / "records" / "z.csv").write_text("0.1\n" * 200)
     output = stdout_of("report", path)
     (line,) = (line for line in output.splitlines() if "given before" in line)
-    said = "peer review: 2026-03-01, given before these inputs changed: sheets Arrays, Motions;"
-    assert line.startswith(f"condition: {said}")
+    said = "Date of the peer review: 2026-03-01, given before these inputs changed: "
+    assert line.startswith(f"condition: {said}sheets Arrays, Motions.")
     assert path.read_bytes() == before
     assert "on record" not in output
 

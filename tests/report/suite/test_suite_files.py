@@ -110,7 +110,7 @@ def test_the_rows_of_the_acceptance_are_stated(made, document):
     assert [row["title"] for row in rows if not row["satisfied"]] == ["Number of motions"]
     assert "NG: Number of motions: 2, at least 3\n" in made[1]
     assert made[1].count("\nOK: ") == 9
-    hold = "OK: Strong motion of generated motions: hold of the envelope: 20 s, at least 20 s"
+    hold = "OK: Strong motion of generated motions: hold of the envelope: 20.0 s, at least 20.0 s"
     assert hold in made[1]
     ours = [row for row in rows if row["is_ours"]]
     assert [row["limit"] for row in ours] == [0.9, 1.0]
