@@ -35,7 +35,7 @@ def findings_before_runs(
     progress("reading the records")
     motions = prepare(sheet)
     progress("comparing with the limits")
-    found = [
+    all_findings = [
         *formula_findings(overwritten(sheet.book)),
         *limits_before_runs(sheet.project, motions),
         *missing_clearances(sheet),
@@ -48,11 +48,11 @@ def findings_before_runs(
         from report.pages.saving import without_analysis
 
         # Nothing is run, so that the assessment is at hand before the report.
-        found.append(note(Place("motions"), without_analysis(assess(sheet, motions))))
-    found += _computed(sheet)
+        all_findings.append(note(Place("motions"), without_analysis(assess(sheet, motions))))
+    all_findings += _computed(sheet)
     # Only here the clock is read: a package of the same input is to be the same on any day.
-    found += _in_future(sheet, dt.date.today())
-    return motions, in_order(found)
+    all_findings += _in_future(sheet, dt.date.today())
+    return motions, in_order(all_findings)
 
 
 def _computed(sheet: Sheet) -> Iterator[Finding]:
@@ -77,32 +77,37 @@ def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
 
 
 def print_findings(
-    source: Path, sheet: Sheet, motions: Shaking, found: Sequence[Finding], *, as_json: bool
+    source: Path,
+    sheet: Sheet,
+    motions: Shaking,
+    all_findings: Sequence[Finding],
+    *,
+    as_json: bool,
 ) -> None:
     """Print a summary and each finding, or all as JSON."""
     if as_json:
-        print_json(_document(sheet, found))
+        print_json(_document(sheet, all_findings))
         return
-    click.echo(_summary(sheet, motions, found))
-    for line in lines(sheet, found):
+    click.echo(_summary(sheet, motions, all_findings))
+    for line in lines(sheet, all_findings):
         say(line)
     click.echo(f"Next: {command('report', source)}")
 
 
-def lines(sheet: Sheet, found: Iterable[Finding]) -> Iterator[str]:
+def lines(sheet: Sheet, all_findings: Iterable[Finding]) -> Iterator[str]:
     """Yield findings as lines: level, cells, what was found, the names of warnings."""
-    for finding in finding_lines(found, sheet.addresses):
+    for finding in finding_lines(all_findings, sheet.addresses):
         name = f" [{finding.id}]" if finding.id else ""
         answer = f" Acknowledged: {finding.reason}" if finding.reason else ""
         yield f"{finding.level}: {finding.cell}: {finding.text}{name}{answer}"
 
 
-def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
+def _document(sheet: Sheet, all_findings: Iterable[Finding]) -> dict[str, Any]:
     # Only here: the models of the results take 0.25 s, and of a check JSON alone needs them.
     from report.results.rows import finding_results
 
     project = sheet.project
-    rows = finding_results(found, sheet.addresses)
+    rows = finding_results(all_findings, sheet.addresses)
     return document(sheet.path) | {
         "findings": [row.model_dump(mode="json") for row in rows],
         "arrays": len(project.arrays),
@@ -113,9 +118,9 @@ def _document(sheet: Sheet, found: Iterable[Finding]) -> dict[str, Any]:
     }
 
 
-def _summary(sheet: Sheet, motions: Shaking, found: Iterable[Finding]) -> str:
+def _summary(sheet: Sheet, motions: Shaking, all_findings: Iterable[Finding]) -> str:
     project = sheet.project
-    levels = [finding.level for finding in found]
+    levels = [finding.level for finding in all_findings]
     counts = [numbered(levels.count(level), level) for level in Level if level in levels]
     errors = f"no errors, {', '.join(counts)}" if counts else "no problems found"
     return (

@@ -204,6 +204,10 @@ def curves(verification: Verification) -> Section:
     """Return the paper's Figs. 10 to 12."""
     slope_deg, wanted_m = paper_figures.READ_OFF
     names = [slug(study.record) for study in verification.curves]
+    charts: dict[str, str] = {}
+    for study, name in zip(verification.curves, names, strict=True):
+        charts[f"curves-{name}"] = paper_figures.curves(study)
+        charts[f"contours-{name}"] = paper_figures.contours(study)
     return section(
         "manual/curves",
         "Design curves (Figs. 10 to 12)",
@@ -215,14 +219,7 @@ def curves(verification: Verification) -> Section:
             for study, name in zip(verification.curves, names, strict=True)
         ],
         prd_mm=_prd_mm,
-        charts={
-            chart: svg
-            for study, name in zip(verification.curves, names, strict=True)
-            for chart, svg in (
-                (f"curves-{name}", paper_figures.curves(study)),
-                (f"contours-{name}", paper_figures.contours(study)),
-            )
-        },
+        charts=charts,
     )
 
 

@@ -151,7 +151,9 @@ def files(
     parts = sections(verification)
     on_stage("Laying out the manual")
     pdf = lay_out(manual_html(verification, parts, machine, date))
-    charts = {name: svg for part in parts for name, svg in part.charts.items()}
+    charts: dict[str, str] = {}
+    for part in parts:
+        charts |= part.charts
     return {
         "verification.pdf": pdf,
         "verification.csv": verification_csv(verification),

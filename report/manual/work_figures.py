@@ -101,11 +101,10 @@ def overview(
         labeled(right, "Time per run [s]", title="One axis: PRD")
         for axes in (left, right):
             logarithmic(axes, 9, 12)
-        lines = {
-            label: line
-            for axes in (right, left)
-            for line, label in zip(*axes.get_legend_handles_labels(), strict=True)
-        }
+        lines: dict[str, Any] = {}
+        for axes in (right, left):
+            handles, labels = axes.get_legend_handles_labels()
+            lines |= dict(zip(labels, handles, strict=True))
         title = "Compiled, except where interpreted; by steps: a call from Python at each step"
         figure.legend(
             lines.values(), lines.keys(), title=title, loc="lower center", ncols=3, handlelength=2.6

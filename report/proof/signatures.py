@@ -121,7 +121,10 @@ def _others(data: bytes, made: bytes) -> Iterator[str]:
 
 
 def _places(pdf: PdfReader) -> dict[int, object]:
-    return {**{n: at for table in pdf.xref.values() for n, at in table.items()}, **pdf.xref_objStm}
+    places: dict[int, object] = {}
+    for table in pdf.xref.values():
+        places |= table
+    return places | pdf.xref_objStm
 
 
 def _stated(pdf: PdfReader) -> object:

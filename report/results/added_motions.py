@@ -9,6 +9,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -127,7 +128,8 @@ def set_rows(
     names: dict[str, str] = {}
     files: dict[str, bytes] = {}
     taken: list[str] = []
-    for file in {each.file: None for group in sets.values() for each in group}:
+    candidates = chain.from_iterable(sets.values())
+    for file in dict.fromkeys(candidate.file for candidate in candidates):
         source, target = folder / file, home / "records" / file
         if source.resolve().is_relative_to(home.resolve()):
             names[file] = name_beside(book, source)
@@ -168,9 +170,12 @@ def other_sources(sheet: Sheet) -> Iterator[Finding]:
 
 def said_near(folder: Path) -> Iterator[str]:
     """Yield in words the sources of `other_sources` in the workbooks of a folder and above it."""
-    whole = folder.resolve()
+    resolved = folder.resolve()
     # A suite is made in records/ or in a folder of it: the workbook is at most two above.
-    for path in sorted(book for up in (whole, *whole.parents[:2]) for book in up.glob("*.xlsx")):
+    workbooks: list[Path] = []
+    for parent in (resolved, *resolved.parents[:2]):
+        workbooks += parent.glob("*.xlsx")
+    for path in sorted(workbooks):
         with suppress(InputError):
             sheet = read(path)
             sources = () if path.name.endswith(BEFORE) else other_sources(sheet)
@@ -182,7 +187,8 @@ def _source(record: Path) -> str:
     """Return what the suite beside a record is the source of it by; empty if it is of none."""
     try:
         suite = from_json(content(record.with_name("suite.json")))
-        names = {part["file"] for motion in suite["motions"] for part in motion["components"]}
+        components = chain.from_iterable(motion["components"] for motion in suite["motions"])
+        names = {component["file"] for component in components}
         return str(suite["source"]) if record.name in names else ""
     except (ValueError, KeyError, TypeError):
         return ""

@@ -162,12 +162,10 @@ def write_lists(pages: Pages, assessment: Assessment, spectra: Sequence[Spectra]
     """Write the runs, the components of the motions, the records, spectra and neighbors."""
     shaking = assessment.shaking
     if assessment.has_motions:
-        runs = [
-            _Run(array=item, motion=motion, run=run)
-            for item in assessment.arrays
-            for motion in item.motions
-            for run in motion.runs
-        ]
+        runs = []
+        for item in assessment.arrays:
+            for motion in item.motions:
+                runs += [_Run(array=item, motion=motion, run=run) for run in motion.runs]
         write_list(pages, RUNS.sheet, RUNS.own, runs, RUNS.key_columns, is_printed=False)
         write_list(pages, "Motions", _MOTIONS, list(_components(shaking)), keys=2)
         write_list(pages, "Records", _RECORDS, shaking.records)
@@ -353,12 +351,10 @@ _WITHOUT_VALUE = {"array", "estimated_m", "result"}
 
 def write_link_runs(pages: Pages, assessment: Assessment) -> None:
     """Write each run of the arrays that are compared with a row of linked blocks."""
-    runs = [
-        _LinkRun(linked=linked, motion=motion, run=run)
-        for linked in assessment.linked
-        for motion in linked.motions
-        for run in motion.runs
-    ]
+    runs = []
+    for linked in assessment.linked:
+        for motion in linked.motions:
+            runs += [_LinkRun(linked=linked, motion=motion, run=run) for run in motion.runs]
     keys = LINK_RUNS.key_columns
     write_list(pages, LINK_RUNS.sheet, LINK_RUNS.own, runs, keys, is_printed=False)
 

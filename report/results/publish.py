@@ -49,10 +49,10 @@ def publish(files: Mapping[str, bytes], folder: Path, names: Sequence[str] = ())
         # Before the files are looked at: another run may be in the middle of its set.
         with locked(folder):
             warn_if_mixed(folder, names or files)
-            former = _listed(folder)
+            hashes_before = _listed(folder)
             write_all({**files, STAMP: stamp(files)}, folder)
             for name in names:
-                if name not in files and _sha256(content(folder / name)) == former.get(name):
+                if name not in files and _sha256(content(folder / name)) == hashes_before.get(name):
                     (folder / name).unlink()
     except OSError as error:
         raise InputError(
@@ -69,8 +69,9 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
     """Warn of files in a folder that do not agree with its stamp."""
     listed = _listed(folder)
     # A first run leaves nothing to compare; a link that leads nowhere is there.
-    there = [name for name in names if os.path.lexists(folder / name)]
-    if mixed := [name for name in there if _sha256(content(folder / name)) != listed.get(name)]:
+    existing = [name for name in names if os.path.lexists(folder / name)]
+    mixed = [name for name in existing if _sha256(content(folder / name)) != listed.get(name)]
+    if mixed:
         warnings.warn(
             f"{folder}: not as {STAMP} says: {', '.join(mixed)}; a run was cut off, or files were"
             " changed since",
@@ -80,8 +81,12 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
 
 def _listed(folder: Path) -> Mapping[str, str]:
     """Return the hashes of the stamp of a folder, by name."""
-    lines = content(folder / STAMP).decode(errors="replace").splitlines()
-    return {match[2]: match[1] for line in lines if (match := _LINE.fullmatch(line))}
+    hashes = {}
+    for line in content(folder / STAMP).decode(errors="replace").splitlines():
+        match = _LINE.fullmatch(line)
+        if match:
+            hashes[match[2]] = match[1]
+    return hashes
 
 
 def content(path: Path) -> bytes:

@@ -53,34 +53,37 @@ _Pair = tuple[_Row | None, _Row | None]
 """A row of either revision; None where it has none."""
 
 
-def changes(former: Compared, assessment: Assessment) -> Changes:
+def changes(earlier: Compared, assessment: Assessment) -> Changes:
     """Return what changed from a former revision to this assessment."""
-    now = compared(assessment)
-    arrays = _paired(now.arrays, former.arrays, lambda row: (row.id,)).values()
-    gaps = _paired(now.clearances, former.clearances, _gap_key).values()
+    current = compared(assessment)
+    arrays = _paired(current.arrays, earlier.arrays, lambda row: (row.id,)).values()
+    gaps = _paired(current.clearances, earlier.clearances, _gap_key).values()
     items = [
-        *_given(former, now, assessment),
-        *_one(ChangeKind.SOFTWARE, "Roofslip", former.roofslip_version, now.roofslip_version),
-        *_checks(former, now),
-        *_one(ChangeKind.VERDICT, "Project", former.verdict, now.verdict),
+        *_given(earlier, current, assessment),
+        *_one(ChangeKind.SOFTWARE, "Roofslip", earlier.roofslip_version, current.roofslip_version),
+        *_checks(earlier, current),
+        *_one(ChangeKind.VERDICT, "Project", earlier.verdict, current.verdict),
         *_results((*arrays, *gaps), UnitFormat(us_first=assessment.project.us_first)),
     ]
     return Changes(
-        revision=former.input.project.revision,
-        date=former.input.project.date.isoformat(),
+        revision=earlier.input.project.revision,
+        date=earlier.input.project.date.isoformat(),
         items=tuple(sorted(items, key=lambda item: list(ChangeKind).index(item.kind))),
         arrays=frozenset(
             row.id
-            for row, old in arrays
-            if row and (any(_differing(row, old)) or any(_numbers(row, old)))
+            for row, earlier_row in arrays
+            if row and (any(_differing(row, earlier_row)) or any(_numbers(row, earlier_row)))
         ),
         values=frozenset(
-            (row.id, name) for row, old in arrays if row for name in _numbers(row, old)
+            (row.id, name)
+            for row, earlier_row in arrays
+            if row
+            for name in _numbers(row, earlier_row)
         ),
         clearances=frozenset(
             number
-            for number, (gap, old) in enumerate(gaps, start=1)
-            if gap and any(_differing(gap, old))
+            for number, (gap, earlier_row) in enumerate(gaps, start=1)
+            if gap and any(_differing(gap, earlier_row))
         ),
     )
 
@@ -89,21 +92,23 @@ def changes(former: Compared, assessment: Assessment) -> Changes:
 _LISTED = ("clearance", "design")
 
 
-def _checks(former: Compared, now: Compared) -> Iterator[Change]:
+def _checks(earlier: Compared, current: Compared) -> Iterator[Change]:
     # Version 0.3 wrote none.
-    if "checks" not in former.model_fields_set:
+    if "checks" not in earlier.model_fields_set:
         return
-    before, after = ([row for row in of.checks if row.id not in _LISTED] for of in (former, now))
+    before, after = (
+        [row for row in of.checks if row.id not in _LISTED] for of in (earlier, current)
+    )
     text = "{row.found_text}: {row.verdict}"
     yield from _rows(ChangeKind.REQUIREMENT, before, after, "{row.subject}, {row.title}", text)
 
 
-def with_reissue(assessment: Assessment, former: Compared) -> Assessment:
+def with_reissue(assessment: Assessment, earlier: Compared) -> Assessment:
     """Return an assessment with a condition where the same revision had other inputs before."""
-    issue, then = assessment.project.project, former.input.project
+    issue, then = assessment.project.project, earlier.input.project
     # One revision with two contents: nobody can tell later which of them was sealed.
     is_same = issue.revision.casefold() == then.revision.casefold()
-    if not (is_same and any(_given(former, compared(assessment), assessment))):
+    if not (is_same and any(_given(earlier, compared(assessment), assessment))):
         return assessment
     row = condition(
         id="revision",
@@ -118,22 +123,24 @@ def with_reissue(assessment: Assessment, former: Compared) -> Assessment:
     return replace(assessment, more=(row,))
 
 
-def _given(former: Compared, now: Compared, assessment: Assessment) -> Iterator[Change]:
+def _given(earlier: Compared, current: Compared, assessment: Assessment) -> Iterator[Change]:
     """Yield what changed of what the results follow from."""
-    yield from _one(ChangeKind.RULES, "Rule set", former.rule_set, now.rule_set)
-    yield from _inputs(former, assessment, assessment.project.us_first)
-    records = former.records, now.records, "{row.motion} {row.component}"
+    yield from _one(ChangeKind.RULES, "Rule set", earlier.rule_set, current.rule_set)
+    yield from _inputs(earlier, assessment, assessment.project.us_first)
+    records = earlier.records, current.records, "{row.motion} {row.component}"
     yield from _rows(ChangeKind.RECORD, *records, "{row.name}, SHA-256 {row.sha256}")
     # Earlier versions did not write theirs.
-    if "documents" in former.model_fields_set:
-        documents = former.documents, now.documents, "{row.label}"
+    if "documents" in earlier.model_fields_set:
+        documents = earlier.documents, current.documents, "{row.label}"
         yield from _rows(ChangeKind.DOCUMENT, *documents, "{row.path}, SHA-256 {row.sha256}")
 
 
-def _one(kind: ChangeKind, title: str, before: str, now: str, cell: str = "") -> Iterator[Change]:
-    if before != now:
+def _one(
+    kind: ChangeKind, title: str, before: str, current: str, cell: str = ""
+) -> Iterator[Change]:
+    if before != current:
         # A verdict is an enum, and is listed as a text.
-        yield Change(kind=kind, title=title, before=str(before), now=str(now), cell=cell)
+        yield Change(kind=kind, title=title, before=str(before), now=str(current), cell=cell)
 
 
 def _paired(
@@ -161,22 +168,24 @@ def _gap_key(row: Any) -> tuple[str, ...]:
     return (row.array, row.object, str(row.direction))
 
 
-def _inputs(former: Compared, assessment: Assessment, us_first: bool) -> Iterator[Change]:
+def _inputs(earlier: Compared, assessment: Assessment, us_first: bool) -> Iterator[Change]:
     for section in SECTIONS:
-        now, before = (getattr(data, section.key) for data in (assessment.project, former.input))
-        rows = _paired(now, before, _row_key) if section.is_table else {(): (now, before)}
-        for index, (key, (row, old)) in enumerate(rows.items()):
+        current, before = (
+            getattr(data, section.key) for data in (assessment.project, earlier.input)
+        )
+        rows = _paired(current, before, _row_key) if section.is_table else {(): (current, before)}
+        for index, (key, (row, earlier_row)) in enumerate(rows.items()):
             name, cells = _name(section, key), _cells(section, index, assessment)
             if row is None:
                 yield _input(name, "given", "removed", "")
-            elif old is None:
+            elif earlier_row is None:
                 yield _input(name, NOT_THERE, "added", next(filter(None, cells.values()), ""))
             else:
-                yield from _fields(name, old, row, cells, us_first)
+                yield from _fields(name, earlier_row, row, cells, us_first)
 
 
-def _input(title: str, before: str, now: str, cell: str) -> Change:
-    return Change(kind=ChangeKind.INPUT, title=title, before=before, now=now, cell=cell)
+def _input(title: str, before: str, current: str, cell: str) -> Change:
+    return Change(kind=ChangeKind.INPUT, title=title, before=before, now=current, cell=cell)
 
 
 def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping[Entry, str]:
@@ -211,22 +220,22 @@ def _name(section: SheetSection, key: tuple[str, ...]) -> str:
 
 
 def _fields(
-    name: str, old: Frozen, new: Frozen, cells: Mapping[Entry, str], us_first: bool
+    name: str, earlier_row: Frozen, new: Frozen, cells: Mapping[Entry, str], us_first: bool
 ) -> Iterator[Change]:
     for entry, cell in cells.items():
-        before, now = getattr(old, entry.name), getattr(new, entry.name)
-        if not _same(before, now):
+        before, current = getattr(earlier_row, entry.name), getattr(new, entry.name)
+        if not _same(before, current):
             title = f"{name}: {entry.heading}" if name else entry.heading
-            shown = [_shown(entry, value, us_first) for value in (before, now)]
+            shown = [_shown(entry, value, us_first) for value in (before, current)]
             yield _input(title, shown[0], shown[1], cell)
 
 
-def _same(before: object, now: object) -> bool:
+def _same(before: object, current: object) -> bool:
     """Whether two inputs are equal."""
-    if isinstance(before, float) and isinstance(now, float):
+    if isinstance(before, float) and isinstance(current, float):
         # Feet and meters of one length differ in the last bit.
-        return math.isclose(before, now, rel_tol=1e-12)
-    return before == now
+        return math.isclose(before, current, rel_tol=1e-12)
+    return before == current
 
 
 def _shown(entry: Entry, value: Any, us_first: bool) -> str:
@@ -243,10 +252,10 @@ def _shown(entry: Entry, value: Any, us_first: bool) -> str:
 
 
 def _rows(
-    kind: ChangeKind, before: Iterable[_Row], now: Iterable[_Row], title: str, text: str
+    kind: ChangeKind, before: Iterable[_Row], current: Iterable[_Row], title: str, text: str
 ) -> Iterator[Change]:
     """Yield the rows whose text changed, by title; both are of a `row` in braces."""
-    pairs = _paired(before, now, lambda row: (in_us_order(title.format(row=row)),))
+    pairs = _paired(before, current, lambda row: (in_us_order(title.format(row=row)),))
     for (name, _), pair in pairs.items():
         first, second = (text.format(row=row) if row else NOT_THERE for row in pair)
         # With other primary units a text says the same in another order.
@@ -301,30 +310,34 @@ _RESULTS: Mapping[type[ResultModel], Sequence[_Result]] = {
 }
 
 
-def _differing(row: ResultModel | None, old: ResultModel | None) -> Iterator[_Result]:
+def _differing(row: ResultModel | None, earlier_row: ResultModel | None) -> Iterator[_Result]:
     """Yield the results of a row, or of one that is new or gone, that changed."""
-    either = row or old
+    either = row or earlier_row
     for result in _RESULTS[type(either)] if either else ():
-        if not (old and row and _alike(getattr(old, result.key), getattr(row, result.key))):
+        if not (
+            earlier_row
+            and row
+            and _alike(getattr(earlier_row, result.key), getattr(row, result.key))
+        ):
             yield result
 
 
-def _alike(before: Any, now: Any) -> bool:
+def _alike(before: Any, current: Any) -> bool:
     """Whether two results are the same; NaN is no value."""
-    if not isinstance(now, float):
-        return bool(before == now)
+    if not isinstance(current, float):
+        return bool(before == current)
     # NaN is unequal to itself.
-    if math.isnan(before) or math.isnan(now):
-        return math.isnan(before) and math.isnan(now)
-    return math.isclose(before, now, rel_tol=ALIKE)
+    if math.isnan(before) or math.isnan(current):
+        return math.isnan(before) and math.isnan(current)
+    return math.isclose(before, current, rel_tol=ALIKE)
 
 
-def _numbers(row: ArrayResult, old: ArrayResult | None) -> Iterator[str]:
+def _numbers(row: ArrayResult, earlier_row: ArrayResult | None) -> Iterator[str]:
     """Yield the key, or the motion, of each number of an array that changed."""
-    for result in _differing(row, old):
+    for result in _differing(row, earlier_row):
         if isinstance(getattr(row, result.key), float):
             yield result.key
-    peaks = {peak.motion: peak.any_m for peak in old.peaks} if old else {}
+    peaks = {peak.motion: peak.any_m for peak in earlier_row.peaks} if earlier_row else {}
     for peak in row.peaks:
         if peak.motion not in peaks or not _alike(peaks[peak.motion], peak.any_m):
             yield peak.motion
@@ -333,18 +346,18 @@ def _numbers(row: ArrayResult, old: ArrayResult | None) -> Iterator[str]:
 def _results(pairs: Iterable[_Pair[ResultModel]], fmt: UnitFormat) -> Iterator[Change]:
     """Yield the changes that are listed of rows; those that are gone come last."""
     # The sort is stable: rows stay in the order of the workbook.
-    for row, old in sorted(pairs, key=lambda pair: pair[0] is None):
-        for result in _differing(row, old):
-            if result.kind and (old or result.of_new) and (row or result.of_gone):
-                title = result.title(row or old) + result.more
-                yield from _one(result.kind, title, *_as_texts(result.key, old, row, fmt))
+    for row, earlier_row in sorted(pairs, key=lambda pair: pair[0] is None):
+        for result in _differing(row, earlier_row):
+            if result.kind and (earlier_row or result.of_new) and (row or result.of_gone):
+                title = result.title(row or earlier_row) + result.more
+                yield from _one(result.kind, title, *_as_texts(result.key, earlier_row, row, fmt))
 
 
 def _as_texts(
-    key: str, old: ResultModel | None, row: ResultModel | None, fmt: UnitFormat
+    key: str, earlier_row: ResultModel | None, row: ResultModel | None, fmt: UnitFormat
 ) -> Sequence[str]:
     """Return a result before and now; numbers have more digits where they would print alike."""
-    values = [getattr(each, key) if each else NOT_THERE for each in (old, row)]
+    values = [getattr(each, key) if each else NOT_THERE for each in (earlier_row, row)]
     texts = [_text(key, value, fmt) for value in values]
     # Results that differ by more than rounding may still print alike.
     if texts[0] != texts[1]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import chain
 
 import numpy as np
 
@@ -187,6 +188,9 @@ def _low_velocity(item: ArrayAssessment) -> model.LowVelocityResult:
 
 def _array(assessment: Assessment, item: ArrayAssessment) -> model.ArrayResult:
     tipping, uplift = item.tipping, item.uplift
+    runs: list[model.RunResult] = []
+    for motion in item.motions:
+        runs += [_run(motion, run) for run in motion.runs]
     return model.ArrayResult(
         id=item.id, verdict=assessment.array_verdict(item), slope_rad=item.array.slope_rad,
         mu=item.array.mu, friction=item.array.friction,
@@ -214,7 +218,7 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> model.ArrayResult:
         ),
         analysis_factor=item.analysis.factor, takes_largest=item.analysis.basis.takes_largest,
         route=item.route,
-        runs=tuple(_run(motion, run) for motion in item.motions for run in motion.runs),
+        runs=tuple(runs),
     )  # fmt: skip
 
 
@@ -253,15 +257,16 @@ def _clearance(gap: ClearanceCheck) -> model.ClearanceResult:
 
 
 def _linked(item: LinkedArray) -> model.LinkedResult:
+    runs: list[model.LinkedRunResult] = []
+    for motion in item.motions:
+        runs += [_linked_run(item, motion, run) for run in motion.runs]
     return model.LinkedResult(
         array=item.design.id, mus=item.row.mus, stiffness_n_per_m=item.links.stiffness_n_per_m,
         damping_ratio=item.links.damping_ratio, rigid_one_axis_m=item.rigid.value_m,
         linked_one_axis_m=item.linked.value_m, ratio=item.ratio, design_m=item.design.design_m,
         estimated_m=item.estimated_m, link_force_n=item.link_force_n,
         rigid_is_enough=item.is_rigid_enough,
-        runs=tuple(
-            _linked_run(item, motion, run) for motion in item.motions for run in motion.runs
-        ),
+        runs=tuple(runs),
     )  # fmt: skip
 
 
@@ -294,16 +299,14 @@ def _neighbor(pair: PlanNeighbor) -> model.NeighborResult:
 
 def _remedies(found: Remedies) -> Iterator[model.RemedyResult]:
     """Yield the remedies of each check, then the changes that are enough together, if several."""
-    own = [((remedy,), remedy.done) for remedy in found.own]
-    for remedies, done in [*own, (found.together[len(found.together) == 1 :], found.done)]:
+    remedies_of_checks = [((remedy,), remedy.done) for remedy in found.own]
+    together = (found.together[len(found.together) == 1 :], found.done)
+    for remedies, done in [*remedies_of_checks, together]:
         if remedies and done:
+            checks = chain.from_iterable(remedy.checks for remedy in remedies)
             yield model.RemedyResult(
                 quantities=tuple(remedy.kind for remedy in remedies),
-                checks=tuple(
-                    f"{check.title}, {check.subject}"
-                    for remedy in remedies
-                    for check in remedy.checks
-                ),
+                checks=tuple(f"{check.title}, {check.subject}" for check in checks),
                 change=joined([remedy.words for remedy in remedies]), verdict=done.verdict,
                 governing=came_to(done),
             )  # fmt: skip

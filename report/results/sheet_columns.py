@@ -327,9 +327,9 @@ def _is_wide(widths: Sequence[int]) -> bool:
 def _width(heading: str, cells: Sequence[str], widest: int) -> int:
     """Return the width of a column, in which no word is broken."""
     longest = max(map(len, cells), default=0)
-    words = [len(word) for text in cells for word in text.split()]
-    wanted = min(longest, max(widest, min(longest // 4, 2 * _WIDEST)))
-    return max(*(len(word) - 1 for word in heading.split()), *words, wanted) + 2
+    words = [len(word) for word in " ".join(cells).split()]
+    of_text = min(longest, max(widest, min(longest // 4, 2 * _WIDEST)))
+    return max(*(len(word) - 1 for word in heading.split()), *words, of_text) + 2
 
 
 def lines_of(text: str, width: int) -> int:

@@ -159,25 +159,24 @@ def sheets(results: StudyResults) -> Iterator[tuple[str, Row, list[Row]]]:
     unit, many = length_unit(results), results.years
     yield "Hazard", ("What", "Value", "Unit"), list(_hazard(results))
     quantiles = ("16 %", "84 %")
+    hazard_rows: list[Row] = []
+    value_rows: list[Row] = []
+    for array_years in many:
+        names = who(results, array_years.plan)
+        for d_m, rate, band in zip(
+            array_years.limits_m, array_years.rates, array_years.rates_band.T, strict=True
+        ):
+            hazard_rows.append((*names, d_m / unit.si, rate, *band))
+        value_rows += [(*names, *row) for row in _values(results, array_years)]
     yield (
         "Displacement hazard",
         ("Building", "Array", f"PRD [{unit.symbol}]", "Annual rate", *quantiles),
-        [
-            (*who(results, array_years.plan), d / unit.si, rate, *band)
-            for array_years in many
-            for d, rate, band in zip(
-                array_years.limits_m, array_years.rates, array_years.rates_band.T, strict=True
-            )
-        ],
+        hazard_rows,
     )
     yield (
         "25 years",
         ("Building", "Array", "What", "Case", "Value", *quantiles, "Unit"),
-        [
-            (*who(results, array_years.plan), *row)
-            for array_years in many
-            for row in _values(results, array_years)
-        ],
+        value_rows,
     )
 
 

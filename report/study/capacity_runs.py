@@ -152,13 +152,14 @@ def _deviations(motions: Sequence[Motion]) -> Floats:
     """Return the standard deviation of ln Sa at each frequency of each component."""
     if len(motions) < 2:
         return np.array([math.nan])
-    spectra = np.array(
-        [
-            [motion.scaled(response_spectrum(a, motion.dt_s, 1.0 / FREQ_HZ)) for a in parts]
-            for motion in motions
-            for parts in [motion.components.values()]
-        ]
-    )
+    spectra_of_motions = []
+    for motion in motions:
+        of_components = []
+        for a_mps2 in motion.components.values():
+            spectrum = response_spectrum(a_mps2, motion.dt_s, 1.0 / FREQ_HZ)
+            of_components.append(motion.scaled(spectrum))
+        spectra_of_motions.append(of_components)
+    spectra = np.array(spectra_of_motions)
     # A component of zeros has no logarithm: the spread is then not known.
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(np.log(spectra).std(axis=0, ddof=1).ravel())

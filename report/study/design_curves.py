@@ -139,22 +139,20 @@ def _displacements(results: StudyResults, building: int) -> Table:
     unit, x = length_unit(results).symbol, len(study_input.intensities) // 2
     cells = dict.fromkeys(STATISTICS, length) | {results.plan.design_rule.name: design_length}
     columns = (
-        (text("μ"), lambda at: f"{study_input.mus[at[2]]:g}"),
-        (text("Slope", "deg"), lambda at: f"{study_input.slopes_deg[at[1]]:g}"),
+        (text("μ"), lambda case: f"{study_input.mus[case[2]]:g}"),
+        (text("Slope", "deg"), lambda case: f"{study_input.slopes_deg[case[1]]:g}"),
         *(
             (
                 text(capitalized(name), unit, 1.3),
-                lambda at, name=name, of=of: cells[name](results, float(of[at])),
+                lambda case, name=name, of=of: cells[name](results, float(of[case])),
             )
             for name, of in results.displacements.items()
         ),
-        (text("Motions without a value", share=1.5), lambda at: int(lost[at])),
+        (text("Motions without a value", share=1.5), lambda case: int(lost[case])),
     )
-    cases = [
-        (building, s, m, x)
-        for m in some(study_input.mus, MOST_FRICTIONS)
-        for s in some(study_input.slopes_deg, MOST_LINES)
-    ]
+    cases = []
+    for m in some(study_input.mus, MOST_FRICTIONS):
+        cases += [(building, s, m, x) for s in some(study_input.slopes_deg, MOST_LINES)]
     return listed(cases, columns, kind="compact")
 
 
@@ -167,6 +165,13 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
     ]
     least = partial(answer, end=study_input.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
     largest = partial(answer, end=study_input.slopes_deg[-1], mark="≥", decimals=SLOPE_DECIMALS)
+    answers = []
+    for name in dict.fromkeys((results.leading, MEAN)):
+        mus = results.minimum_frictions(building, name, allowed_m)
+        slopes_deg = results.largest_slopes(building, name, allowed_m)
+        by_slope = _allowed_table(results, text("Slope", "deg"), study_input.slopes_deg, mus, least)
+        by_friction = _allowed_table(results, text("μ"), study_input.mus, slopes_deg, largest)
+        answers.append((name, by_slope, by_friction))
     return section(
         "study/allowed",
         f"Least friction and largest slope{on_building(results, building, ', building ')}",
@@ -174,16 +179,7 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
         floor_alone=list(_floor_alone(results, allowed_m)),
         frictions=frictions,
         slopes=slopes,
-        answers=[
-            (
-                name,
-                _allowed_table(results, text("Slope", "deg"), study_input.slopes_deg, mus, least),
-                _allowed_table(results, text("μ"), study_input.mus, slopes_deg, largest),
-            )
-            for name in dict.fromkeys((results.leading, MEAN))
-            for mus in [results.minimum_frictions(building, name, allowed_m)]
-            for slopes_deg in [results.largest_slopes(building, name, allowed_m)]
-        ],
+        answers=answers,
     )
 
 
@@ -288,20 +284,20 @@ def _extent(results: StudyResults, cases: NDArray[np.bool_]) -> tuple[list[float
 def _prescribed_table(results: StudyResults, prescribed: Prescribed) -> Table:
     study_input, measure = results.plan.input, with_symbols(axis(results))
 
-    def margins(at: tuple[int, int]) -> tuple[str, str, str]:
-        return _margins(prescribed.ratio[at], study_input.intensities)
+    def margins(case: tuple[int, int]) -> tuple[str, str, str]:
+        return _margins(prescribed.ratio[case], study_input.intensities)
 
     columns = (
-        (words("Friction", 1.6), lambda at: friction_name(results, study_input.mus[at[1]])),
-        (text("Slope", "deg"), lambda at: f"{study_input.slopes_deg[at[0]]:g}"),
-        (centered("Permitted"), lambda at: "yes" if prescribed.permitted[at] else "no"),
-        (text("Enough up to", measure, 1.4), lambda at: margins(at)[0]),
-        (text("Least margin", share=1.1), lambda at: margins(at)[1]),
-        (text("at", measure, 1.2), lambda at: margins(at)[2]),
+        (words("Friction", 1.6), lambda case: friction_name(results, study_input.mus[case[1]])),
+        (text("Slope", "deg"), lambda case: f"{study_input.slopes_deg[case[0]]:g}"),
+        (centered("Permitted"), lambda case: "yes" if prescribed.permitted[case] else "no"),
+        (text("Enough up to", measure, 1.4), lambda case: margins(case)[0]),
+        (text("Least margin", share=1.1), lambda case: margins(case)[1]),
+        (text("at", measure, 1.2), lambda case: margins(case)[2]),
     )
-    cases = [
-        (s, m) for m in range(len(study_input.mus)) for s in range(len(study_input.slopes_deg))
-    ]
+    cases = []
+    for m in range(len(study_input.mus)):
+        cases += [(s, m) for s in range(len(study_input.slopes_deg))]
     return listed(cases, columns, kind="compact")
 
 

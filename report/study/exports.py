@@ -55,7 +55,9 @@ def export_files(results: StudyResults) -> Mapping[str, bytes]:
     arrays = [result for result in results.arrays if known_states(result)]
     if not arrays or not is_exportable(results) or is_refused(results):
         return {}
-    of_states = [f"LS{k}-{name}" for k in range(1, MOST_STATES + 1) for name in _OF_STATE]
+    of_states: list[str] = []
+    for number in range(1, MOST_STATES + 1):
+        of_states += [f"LS{number}-{name}" for name in _OF_STATE]
     rows = [(*_OF_ARRAY, *of_states), *(_component(results, result) for result in arrays)]
     return {LIBRARY: csv_text(rows).encode()}
 

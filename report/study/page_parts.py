@@ -173,12 +173,11 @@ def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
         (text("The same by the formula", unit, 1.4), lambda at: by_formula(at)[0]),
         (text(with_symbols("Δ_RHA / formula"), share=1.2), lambda at: by_formula(at)[1]),
     )
-    cases = [
-        (building, s, m, x)
-        for m in some(study_input.mus, MOST_CUTS)
-        for s in some(study_input.slopes_deg, MOST_CUTS)
-        for x in some(study_input.intensities, MOST_FRICTIONS)
-    ]
+    intensities = some(study_input.intensities, MOST_FRICTIONS)
+    cases = []
+    for m in some(study_input.mus, MOST_CUTS):
+        for s in some(study_input.slopes_deg, MOST_CUTS):
+            cases += [(building, s, m, x) for x in intensities]
     return listed(cases, columns, kind="compact")
 
 

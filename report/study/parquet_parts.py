@@ -117,7 +117,7 @@ def _table(campaign: Campaign, part: slice, rows: Rows, names: Sequence[str]) ->
     """Return rows as a table, one row for each run."""
     pa = optional_package(ARROW)
     cases, columns = campaign.cases[part], campaign.columns
-    count, each = len(cases), len(columns)
+    count, n_columns = len(cases), len(columns)
 
     def keys(words: Iterable[str], at: Any) -> Any:
         return pa.DictionaryArray.from_arrays(np.asarray(at, np.int32), pa.array(list(words)))
@@ -127,12 +127,12 @@ def _table(campaign: Campaign, part: slice, rows: Rows, names: Sequence[str]) ->
     signs = np.array([orientation.polarity for _, orientation in columns], dtype=np.int8)
     return pa.table(
         {
-            "building": keys(names, np.repeat(cases.building, each)),
+            "building": keys(names, np.repeat(cases.building, n_columns)),
             # Rounded, it is what was typed, by which readers select rows.
-            "slope_deg": np.repeat(np.degrees(cases.slope_rad).round(12), each),
-            "slope_rad": np.repeat(cases.slope_rad, each),
-            "mu": np.repeat(cases.mu, each),
-            "intensity": np.repeat(cases.intensity, each),
+            "slope_deg": np.repeat(np.degrees(cases.slope_rad).round(12), n_columns),
+            "slope_rad": np.repeat(cases.slope_rad, n_columns),
+            "mu": np.repeat(cases.mu, n_columns),
+            "intensity": np.repeat(cases.intensity, n_columns),
             "motion": keys(motions, np.tile([number for number, _ in columns], count)),
             "component": keys(("record", "transverse"), np.tile(swapped, count)),
             "polarity": np.tile(signs, count),
@@ -150,8 +150,8 @@ def signed(content: bytes, key: bytes) -> bytes:
     before, after = content[:at], content[at + len(_UNSIGNED) :]
     digest = hashlib.sha256(before + _UNSIGNED + after)
     tag = hmac.digest(key, digest.digest(), "sha256").hex()
-    said = _SHA256 + digest.hexdigest().encode() + _HMAC + tag.encode()
-    return before + said + after
+    signature = _SHA256 + digest.hexdigest().encode() + _HMAC + tag.encode()
+    return before + signature + after
 
 
 def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
@@ -194,8 +194,8 @@ def _opened(content: bytes, key: bytes) -> Done:
     """Return a part; raises `ValueError` if it is not whole."""
     # The last one: a name in the rows may spell the same letters.
     end = content.rindex(_SHA256) + len(_UNSIGNED)
-    tag, wanted = slice(end - 64, end), signed(content, key)
-    if content[: tag.start] != wanted[: tag.start]:
+    tag, expected = slice(end - 64, end), signed(content, key)
+    if content[: tag.start] != expected[: tag.start]:
         raise ValueError("the SHA-256 is not that of the content")
     pa = optional_package(ARROW)
     metadata = pa.parquet.read_metadata(pa.BufferReader(content))
@@ -203,7 +203,7 @@ def _opened(content: bytes, key: bytes) -> Done:
         about=_AS_JSON.validate_json(metadata.metadata[_ABOUT]),
         rows=metadata.num_rows,
         sha256=hashlib.sha256(content).hexdigest(),
-        is_own=hmac.compare_digest(content[tag], wanted[tag]),
+        is_own=hmac.compare_digest(content[tag], expected[tag]),
     )
 
 
@@ -224,14 +224,14 @@ def keep(folder: Path, content: bytes, key: bytes) -> Done:
     return done
 
 
-def begin(folder: Path, manifest: Mapping[str, Any], former: int) -> None:
+def begin(folder: Path, manifest: Mapping[str, Any], n_earlier: int) -> None:
     """Write the manifest; `former` is the number of parts of the study that was there before.
 
     Raises `InputError` if a file has the name of a part and no study wrote it.
     """
     folder.mkdir(parents=True, exist_ok=True)
     # Parts of the former study are replaced, damaged or not; any other file would be lost.
-    ours = {part_name(number) for number in range(former)}
+    ours = {part_name(number) for number in range(n_earlier)}
     for path in sorted(folder.glob(_PARTS)):
         if path.name not in ours and _ABOUT not in path.read_bytes():
             raise InputError(

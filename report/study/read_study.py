@@ -135,17 +135,17 @@ def _about_motions(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
         yield Finding.error(Place("buildings"), text, "fill in a row")
     if "recorded_at" in study and not is_ground and inputs["buildings"]:
         text = "a building is given, but the motions are roof motions"
-        wanted = "clear the row, or set Recorded at to ground"
-        yield Finding.error(Place("buildings", 0, "id"), text, wanted)
+        accepted = "clear the row, or set Recorded at to ground"
+        yield Finding.error(Place("buildings", 0, "id"), text, accepted)
 
 
 def _about_mat(row: int, mat: InputRow) -> Iterator[Finding]:
     text = mat.get("tested") or ""
     series = tested(text)
     if text and (len(series) < 3 or not all(0.0 < v <= 2.0 for v in series)):
-        wanted = "give three or more numbers above 0, to 2, with a blank after each comma"
+        accepted = "give three or more numbers above 0, to 2, with a blank after each comma"
         place = Place("mats", row, "tested")
-        yield Finding.error(place, f"tested values are '{text[:60]}'", wanted)
+        yield Finding.error(place, f"tested values are '{text[:60]}'", accepted)
     if "mu" in mat and mat["mu"] is None and not text:
         missing = "friction coefficient and tested values are missing"
         yield Finding.error(Place("mats", row, "mu"), missing, "give one")
@@ -157,8 +157,8 @@ def _about_arrays(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
         if mat.casefold() not in names:
             yield Finding.error(place, f"mat '{mat}' is not on the sheet Mats", "add it")
     if study.get("site_intensity") and not inputs["study_arrays"]:
-        wanted = "fill in a row of the sheet Arrays"
-        yield _at("site_intensity", "is given, but no array is", wanted)
+        accepted = "fill in a row of the sheet Arrays"
+        yield _at("site_intensity", "is given, but no array is", accepted)
     # Combinations are of tested values, and an intensity has none.
     is_combined = study.get("sampling") is Sampling.ALL_COMBINATIONS
     if is_combined and study.get("site_intensity") and study.get("intensity_beta"):
@@ -201,8 +201,8 @@ def _about_hazard(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
             yield at(basis, "is missing", "the factor needs it")
     measures = (Intensity.PGA, Intensity.SA1) if is_ground else (Intensity.PPA, Intensity.SA1)
     if study.get("intensity") not in (*measures, None):
-        wanted = " or ".join(measure.letters for measure in measures)
-        yield _at("intensity", "has no hazard curve", f"choose {wanted}, or clear the hazard")
+        accepted = " or ".join(measure.letters for measure in measures)
+        yield _at("intensity", "has no hazard curve", f"choose {accepted}, or clear the hazard")
     if not inputs["study_arrays"]:
         yield at("file", "is given, but no array is", "fill in a row of the sheet Arrays")
 

@@ -274,10 +274,11 @@ def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
         axes.axvline(center_m / unit.si, color=INK, linewidth=1.0)
         axes.set_yticks(range(len(bars)), [bar.name for bar in bars])
         axes.set_ylim(len(bars) - 0.45, -0.55)
-        reached = [v for bar in bars for v in (bar.prd_low_m, bar.prd_high_m)]
-        top = float(np.nanmax([*reached, center_m])) / unit.si
+        lows = [bar.prd_low_m for bar in bars]
+        highs = [bar.prd_high_m for bar in bars]
+        top = float(np.nanmax([*lows, *highs, center_m])) / unit.si
         # A number left of the shortest end keeps clear of the names.
-        low = min(0.0, float(np.nanmin([*reached, center_m])) / unit.si - 0.1 * top)
+        low = min(0.0, float(np.nanmin([*lows, *highs, center_m])) / unit.si - 0.1 * top)
         axes.set_xlim(low, 1.12 * top)
         # No displacement is negative: the room at the left is for a number.
         axes.set_xticks([tick for tick in axes.get_xticks() if 0.0 <= tick <= 1.12 * top])

@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -79,7 +80,7 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
     return StudyMotions(
         buildings=tuple(building.id for building in buildings) or (ROOF,),
         motions=by_building,
-        files=tuple(file for _, components in read for file in components.files),
+        files=tuple(chain.from_iterable(components.files for _, components in read)),
     )
 
 

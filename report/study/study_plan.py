@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import chain, product
 from typing import Any
 
 import numpy as np
@@ -203,9 +203,7 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     ]
     arrays = []
     start = len(blocks[0])
-    for number, (array, building) in enumerate(
-        (array, building) for array in study_input.study_arrays for building in range(buildings)
-    ):
+    for number, (array, building) in enumerate(product(study_input.study_arrays, range(buildings))):
         # Arrays draw apart: with one seed, all would be at the same quantiles.
         seed = study_input.study.seed + 1000 * number
         made, parts = _array(study_input, motions, array, building, start, seed)
@@ -215,7 +213,7 @@ def plan_study(sheet: StudySheet, motions: StudyMotions) -> StudyPlan:
     campaign = Campaign(motions=motions.motions, cases=joined(blocks))
     # Again: the reader knows the grid, but neither the samples nor the orientations.
     sheet.refuse(_too_many(campaign))
-    hidden = [cell for file in motions.files for cell in file.unseen]
+    hidden = list(chain.from_iterable(file.unseen for file in motions.files))
     notes = (*warnings([*sheet.unseen, *hidden]), *sheet.warnings)
     return StudyPlan(
         workbook=sheet.path.name,
@@ -249,8 +247,8 @@ def _predicted(sheet: StudySheet) -> Mapping[str, Predictive]:
 def _too_many(campaign: Campaign) -> Iterator[Finding]:
     place = Place("study", 0, "intensities")
     if len(campaign.cases) > MOST_CASES:
-        wanted = f"give at most {MOST_CASES:,}"
-        yield Finding.error(place, f"make {len(campaign.cases):,} cases", wanted)
+        accepted = f"give at most {MOST_CASES:,}"
+        yield Finding.error(place, f"make {len(campaign.cases):,} cases", accepted)
     elif campaign.rows > MOST_RUNS:
         yield Finding.error(place, f"make {campaign.rows:,} runs", f"give at most {MOST_RUNS:,}")
 

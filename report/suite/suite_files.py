@@ -47,7 +47,9 @@ def check_folder(folder: Path, count: int) -> None:
     Raises `InputError` with their names.
     """
     names = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
-    names_of_suite = {f"motion-{k:02d}-{axis}.csv" for k in range(1, count + 1) for axis in "xyz"}
+    names_of_suite: set[str] = set()
+    for number in range(1, count + 1):
+        names_of_suite |= {f"motion-{number:02d}-{axis}.csv" for axis in "xyz"}
     # Fewer motions than before: the last ones would pass for motions of this suite.
     remaining = [
         name for name in names if _RECORD_NAME.fullmatch(name) and name not in names_of_suite

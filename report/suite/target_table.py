@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -39,7 +40,9 @@ _KINDS = {
     _VERTICAL: (("vertical",), ORDINATE),
 }
 
-_NAMES = {name: kind for kind, (names, _) in _KINDS.items() for name in names}
+_NAMES: dict[str, str] = {}
+for _kind, (_names, _) in _KINDS.items():
+    _NAMES |= dict.fromkeys(_names, _kind)
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
 _WANTED = "frequency [Hz] or period [s], horizontal [g] and, optionally, vertical [g]"
 # Allows for band limits given as rounded periods, such as 3.33 s.
@@ -168,7 +171,7 @@ def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
         headings = [_heading(cell) for cell in row]
         kinds = {kind for kind, _ in headings}
         if {_FREQUENCY, _PERIOD} & kinds and _HORIZONTAL in kinds:
-            above = [cell for line in rows[:top] for cell in line if not cell.is_blank]
+            above = [cell for cell in chain.from_iterable(rows[:top]) if not cell.is_blank]
             return top, _columns(above, row, headings)
     raise InputError(
         f"{source}: no row of headings in the first {HEADING_ROWS} rows; give {_WANTED}"
