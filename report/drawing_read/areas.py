@@ -21,14 +21,10 @@ from report.drawing_read.curves import MAX_COORDINATE, MAX_POINTS, are_numbers, 
 from report.project.model.shapes import Point
 
 MAX_BOUNDARIES = 500
-
-
 HATCHES = ("HATCH", "MPOLYGON")
 
 
 _LEAST_SHARE = 1e-3
-
-
 _EDGES = {
     "LineEdge": ("LINE", ("start", "end")),
     "ArcEdge": ("ARC", ("center", "radius", "start_angle", "end_angle")),

@@ -19,24 +19,14 @@ from ezdxf.math import arc_angle_span_deg, arc_segment_count, arc_to_bulge, bulg
 from report.project.model.shapes import Point
 
 MAX_POINTS = 2000
-
-
 MAX_COORDINATE = 1e12
-
-
 # Of a spline, as in AutoCAD: the work for a point of it grows with the square of the degree.
 MAX_DEGREE = 10
-
-
 CURVES = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
 
 
 _FLAT = 1e-6
-
-
 _SPAN_PARTS = 4  # chords of a spline between two knots, at the least
-
-
 _SPLINE_FRAME = 16  # of a vertex that controls a curve and is not on it
 
 

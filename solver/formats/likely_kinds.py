@@ -15,11 +15,7 @@ _CONVERT = (
 
 
 COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
-
-
 _AS_RECORD = "give the record itself, such as the file that its download page offers"
-
-
 _AS_READ = f"give the file of values that it reads, or {COLUMNS}"
 
 
@@ -36,8 +32,6 @@ _TEXTS = (
 
 
 LOOKED_AT = 15
-
-
 _BYTES = (
     (re.compile(rb"MS\x03"), "miniSEED 3", _CONVERT),
     (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),

@@ -17,7 +17,7 @@ import numpy as np
 from solver.formats import phrases
 from solver.formats.channels import motion_file
 from solver.formats.columns import SIDE_BY_SIDE, magnitudes, pairs, remedy, rising
-from solver.formats.headings import Layout, content_of, laid_out
+from solver.formats.headings import Layout, laid_out
 from solver.formats.likely_kinds import likely_text
 from solver.formats.numbers import (
     COMPARED,
@@ -29,6 +29,7 @@ from solver.formats.numbers import (
 )
 from solver.formats.phrases import Kind
 from solver.formats.record_file import MotionFile
+from solver.formats.rows import content_of
 from solver.formats.source import Source
 from solver.formats.times import Even, is_even, sampled
 from solver.model import Floats, InputError, Problem
