@@ -233,12 +233,13 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
         draw_coordinates(plan, extent)
     label_edges(plan, extent)
     names = [reserve_name(plan, array) for array in plan.assessment.arrays]
-    spots = [spot for item in plan.placed if (spot := name_spot(plan, item)) is not None]
+    spots = list(filter(None, [name_spot(plan, item) for item in plan.placed]))
     for spot in spots:
         plan.paper.placer.take(spot)
     lanes = draw_numbers(plan)
-    for a, b in (ends for item in plan.edges for ends in _edge_lines(plan, item.id)):
-        plan.paper.placer.take_segment(a, b)
+    for item in plan.edges:
+        for a, b in _edge_lines(plan, item.id):
+            plan.paper.placer.take_segment(a, b)
     if plan.size.is_full or plan.size.is_screen:
         draw_dimensions(plan, lanes)
     # A small object would disappear between two names: none covers it.

@@ -71,17 +71,17 @@ def strength_table(package: PackageData) -> Table:
     def correlation(motion: MotionStrength, pair: str) -> str:
         return number(motion.correlations.get(pair, math.nan), 2)
 
-    columns: Sequence[Column] = (
-        (words("Motion", 1.1), lambda motion: motion.id),
-        *(
-            (plain(head, decimals, name), partial(strength, name=name, field=field))
-            for head, decimals, field in _STRENGTHS
-            for name in _COMPONENTS
-        ),
-        *((text("Correlation", pair), partial(correlation, pair=pair)) for pair in _PAIRS),
-        (text("Hold", "s", 0.9),
-         lambda motion: number(motion.hold_s, 1) if motion.is_generated else "record"),
-    )  # fmt: skip
+    def hold(motion: MotionStrength) -> str:
+        return number(motion.hold_s, 1) if motion.is_generated else "record"
+
+    columns: list[Column] = [(words("Motion", 1.1), lambda motion: motion.id)]
+    for head, decimals, field in _STRENGTHS:
+        for name in _COMPONENTS:
+            strength_of = partial(strength, name=name, field=field)
+            columns.append((plain(head, decimals, name), strength_of))
+    for pair in _PAIRS:
+        columns.append((text("Correlation", pair), partial(correlation, pair=pair)))
+    columns.append((text("Hold", "s", 0.9), hold))
     motions = package.assessment.acceptance.motions
     return listed(motions, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 

@@ -19,7 +19,7 @@ from report.assessment.plan.neighbors import PlanNeighbor
 from report.assessment.support.keep_clear import keep_clear, keep_clear_m, keep_clear_mark
 from report.document.columns import centered, plain, provided, required, text, weight, words
 from report.document.tables import Column, Table, listed, merged
-from report.pages.parts import PackageData
+from report.pages.parts import PackageData, bar
 from report.text.amounts import capacity, demand, shown_in_order
 from report.text.units import Show, no_less, no_more
 
@@ -130,7 +130,7 @@ def _table(package: PackageData, columns: list[Column], systems: int = 2) -> Tab
         columns,
         replace(package.fmt, systems=systems),
         kind="compact",
-        style=lambda item: package.bar(item.id in changed),
+        style=lambda item: bar(item.id in changed),
     )
 
 

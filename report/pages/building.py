@@ -41,11 +41,11 @@ def building_part(
 ) -> Mapping[str, object]:
     """Return what is said of the building, its modes, and what other ones would give."""
     shaking, building, fmt = package.assessment.shaking, package.data.building, package.fmt
-    components = [
-        _Transferred(motion.id, abs(motion.scale) / G_MPS2, NAMES[name], roof)
-        for motion, prepared in zip(shaking.motions, shaking.prepared, strict=True)
-        for name, roof in prepared.roof.items()
-    ]
+    components = []
+    for motion, prepared in zip(shaking.motions, shaking.prepared, strict=True):
+        per_g = abs(motion.scale) / G_MPS2
+        for name, roof in prepared.roof.items():
+            components.append(_Transferred(motion.id, per_g, NAMES[name], roof))
     height_m = package.data.site.structure_height_m
     return {
         "model": _model(components),
@@ -133,18 +133,13 @@ def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
         # A motion need not have each component that another one has.
         return next((value(item) for item in components if item.name == name), math.nan)
 
-    columns: Sequence[Column] = (
-        (words("Motion", 1.2), lambda of: of[0].motion),
-        *(
-            (
-                plain(head, decimals, SHORT[name], 0.9),
-                partial(of_component, name=name, value=value),
-            )
-            for head, decimals, value in quantities
-            for name in dict.fromkeys(component.name for component in components)
-        ),
-        (plain("Extended by", 1, "s"), lambda of: of[0].roof.pad_s),
-    )
+    columns: list[Column] = [(words("Motion", 1.2), lambda of: of[0].motion)]
+    names = dict.fromkeys(component.name for component in components)
+    for head, decimals, value in quantities:
+        for name in names:
+            value_of = partial(of_component, name=name, value=value)
+            columns.append((plain(head, decimals, SHORT[name], 0.9), value_of))
+    columns.append((plain("Extended by", 1, "s"), lambda of: of[0].roof.pad_s))
     by_motion = grouped_by(components, lambda item: item.motion)
     return listed(by_motion.values(), columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 

@@ -26,26 +26,22 @@ from report.text.units import ratio
 
 # The part with the numbers behind a kind of check; of the others the part on checks.
 _PARTS = {
-    kind: part
-    for part, kinds in {
-        "plan": ("clearance", "neighbors", "roof_outline", "drawing_distances", "fire_pathway",
-                 "fire_pathways"),
-        "model": ("tipping", "links"),
-        "results": ("design", "runs"),
-        "motions": ("motions", "drift", "ground_motions"),
-        "provisions": ("override", "statistic", "confirmation"),
-        "accuracy": ("less_friction",),
-        "inputs-friction": ("friction_tests", "friction_velocity"),
-        "inputs-site": ("building_code", "code_edition", "hazard_source", "sdc", "site_class",
-                        "dates", "site_specific_hazard", "rule_set", "edition_name"),
-    }.items()
-    for kind in kinds
+    "plan": ("clearance", "neighbors", "roof_outline", "drawing_distances", "fire_pathway",
+             "fire_pathways"),
+    "model": ("tipping", "links"),
+    "results": ("design", "runs"),
+    "motions": ("motions", "drift", "ground_motions"),
+    "provisions": ("override", "statistic", "confirmation"),
+    "accuracy": ("less_friction",),
+    "inputs-friction": ("friction_tests", "friction_velocity"),
+    "inputs-site": ("building_code", "code_edition", "hazard_source", "sdc", "site_class",
+                    "dates", "site_specific_hazard", "rule_set", "edition_name"),
 }  # fmt: skip
 
 
 def part_of(check: Check, numbers: Mapping[str, str]) -> str:
     """Return the part with the numbers behind a check, of those that a package has."""
-    part = _PARTS.get(check.id, "limits")
+    part = next((part for part, kinds in _PARTS.items() if check.id in kinds), "limits")
     return part if part.partition("-")[0] in numbers else "limits"
 
 

@@ -13,7 +13,7 @@ from report.assessment.design.clearances import ClearanceCheck
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.document.columns import ColumnHead, centered, plain, provided, required, text, words
 from report.document.tables import Column, Table, listed
-from report.pages.parts import PackageData
+from report.pages.parts import PackageData, bar
 from report.project.model.choices import Direction
 from report.text.unit_format import UnitFormat
 from report.text.units import ratio
@@ -78,7 +78,7 @@ def _listed(package: PackageData, columns: Sequence[Column], fmt: UnitFormat) ->
         columns,
         fmt,
         kind="compact",
-        style=lambda gap: package.bar(gap.number in changed),
+        style=lambda gap: bar(gap.number in changed),
     )
 
 

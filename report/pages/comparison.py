@@ -1,7 +1,9 @@
 """The comparison with the prescriptive displacement: chart, table, why an array has its route.
 
-Array A1: the limits of the prescriptive procedure are satisfied, but the analysis
-displacement exceeds the prescriptive displacement.
+    Array A1: the limits of the prescriptive procedure are satisfied, but the analysis
+    displacement exceeds the prescriptive displacement.
+
+Read `page`.
 """
 
 from __future__ import annotations

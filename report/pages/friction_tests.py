@@ -12,7 +12,7 @@ from report.assessment.checks.check import VELOCITY_ROW
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.clearances import by_id
 from report.assessment.design.friction import mu_words
-from report.assessment.design.tested_friction import MOST_BEYOND, tested
+from report.assessment.design.tested_friction import MOST_BEYOND, basis_words, tested
 from report.assessment.design.velocity_check import velocity_check
 from report.assessment.design.verdict import Verdict
 from report.assessment.design.words import NOT_GIVEN
@@ -219,7 +219,7 @@ def _compared(package: PackageData, series: Sequence[Series]) -> Iterator[str]:
             rounding = ", within the rounding of two decimals"
         return (
             f"{mu} {number(used, 3)}, {differs} the tested mean {number(mean, 3)} "
-            f"({tests.surface}){rounding}; {package.friction_basis(array)}."
+            f"({tests.surface}){rounding}; {basis_words(package.data, array)}."
         )
 
     for comparison, ids in ids_by(package.data.arrays, comparison_of).items():

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from markupsafe import Markup
 
 from report.assessment.design.friction import mu_words
+from report.assessment.design.tested_friction import basis_words
 from report.document.columns import ColumnHead, length, plain, text, weight, words
 from report.document.tables import Table, listed, merged
 from report.motions.history import OWN
@@ -43,7 +44,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         ),
         "friction_laws": [
             f"Array {array.id}. Friction: {mu_words(array.friction)}{_rate(array)}; "
-            f"{package.friction_basis(array)}."
+            f"{basis_words(package.data, array)}."
             for array in data.arrays
             if not array.friction.is_constant
         ],

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from report.assessment.assessment import Assessment
 from report.assessment.checks.check import LOWERING
+from report.assessment.design.tested_friction import basis_words
 from report.assessment.design.verdict import Verdict
 from report.document.tables import stamp
 from report.pages.array_tables import letter_table
@@ -67,7 +68,7 @@ def _scope(package: PackageData) -> str:
     arrays = f"{capitalized(counted(len(ids), 'ballasted array'))} ({ranged(ids)}) {were}"
     if not done.has_motions:
         return f"{arrays} assigned the prescriptive displacement of"
-    n_runs = sum(len(motion.runs) for item in done.arrays for motion in item.motions)
+    n_runs = sum(len(item.runs) for item in done.arrays)
     motions = counted(len(done.shaking.motions), "motion")
     return (
         f"{arrays} analyzed by response history under {motions}, in {counted(n_runs, 'run')}, and "
@@ -118,7 +119,7 @@ def _open_checks(done: Assessment, summary: str) -> str:
 def _friction(package: PackageData) -> str:
     """Return where the friction of each array comes from."""
     arrays = package.data.arrays
-    sources = ids_by(arrays, lambda array: (package.friction_basis(array), array.mu_report))
+    sources = ids_by(arrays, lambda array: (basis_words(package.data, array), array.mu_report))
     sentences = [
         f"{capitalized(all_or(ids, len(arrays)))}: {report + '; ' if report else ''}{basis}"
         for (basis, report), ids in sources.items()

@@ -1,9 +1,11 @@
-"""The marks of the numbers of a package: † unverified, ‡ overridden, § not permitted. Read `Marks`.
+"""The marks of the numbers of a package: † unverified, ‡ overridden, § not permitted.
 
 A number is marked by the provision that it comes from, not by all that were compared:
 
-    design 20.4 in†     the floor governs, and the floor's share was not verified
-    design 20.4 in†‡    and an override of the project changed it
+    †     the floor governs, and its share of the prescriptive displacement was not verified
+    †‡    and an override of the project changed it
+
+Read `Marks`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
 """The equations with the numbers of the governing array, unrounded until they are printed.
 
-k_a × 13.1 in (333 mm) = 14.4 in (367 mm)†
+    1.10† × 43.1 in (1095 mm) = 47.4 in (1204 mm)    k_a × mean of the motions
+
+Read `page`; `method.html` has the equations.
 """
 
 from __future__ import annotations

@@ -251,12 +251,11 @@ def _table(package: PackageData) -> Table:
         (words("Reason", 4.7), lambda group: group.reason),
         (words("Error of PRD", 1.9), lambda group: group.error),
     )
-    groups = [
-        _Group(array, runs)
-        for array in package.assessment.arrays
+    groups = []
+    for array in package.assessment.arrays:
+        by_model = grouped_by(array.runs, lambda run: run.solution.model)
         # From the simplest model on, as the ladder of models is listed above the table.
-        for _, runs in sorted(grouped_by(array.runs, lambda run: run.solution.model).items())
-    ]
+        groups += [_Group(array, by_model[model]) for model in sorted(by_model)]
     return listed(groups, columns, package.fmt, kind="compact")
 
 

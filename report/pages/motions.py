@@ -51,7 +51,6 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     shaking, spectra, limits = done.shaking, evidence.spectra, done.acceptance.rows
     targets, sources = done.targets, _sources(shaking.motions)
     table, alike = _motion_table(package, has_sources=not sources)
-    limits_drift = fmt.both(DRIFT_M)
     return {
         "motions": table,
         "alike": ", ".join(f"{lowered(name)} {value}" for name, value in alike.items()),
@@ -78,7 +77,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "strength": strength_table(package),
         "ends": _ends(shaking.prepared, fmt),
         "drift": _drift_table(package, fmt.units()[0]),
-        "drift_limit": limits_drift,
+        "drift_limit": fmt.both(DRIFT_M),
         "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
         "governing": done.governing.id,
         "has_own_target": targets.roof.name == OWN,
@@ -175,12 +174,12 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Ma
         (text("Factor", share=0.8), lambda row: f"{row[0].scale:.4g}"),
         (centered("Polarity"), lambda row: _polarity(row[0])),
     )
-    alike = {
-        shown.head: f"{said.pop()} {shown.unit}".rstrip()
-        for shown, cell, *_ in maybe_alike
+    alike = {}
+    for head, text_of, *_ in maybe_alike:
         # Compared as printed: what reads the same in every row is in a note.
-        if len(said := {str(cell(row)) for row in rows}) == 1
-    }
+        texts = {str(text_of(row)) for row in rows}
+        if len(texts) == 1:
+            alike[head.head] = f"{texts.pop()} {head.unit}".rstrip()
     columns = (
         (words("Motion", 0.9), lambda row: row[0].id),
         *([source] if has_sources else []),
@@ -214,20 +213,16 @@ def _drift_table(package: PackageData, unit: Unit) -> Table:
         f"Velocity, {unit.symbol}/s": "final_velocity_mps",
         f"Displacement, {unit.symbol}": "final_displacement_m",
     }
-    columns: Sequence[Column] = (
+    columns: list[Column] = [
         (words("Motion", 1.1), lambda prepared: prepared.motion_id),
         (words("Processing", 3.6), lambda prepared: prepared.done),
-        *(
-            (
-                plain(head, unit=names[name], share=0.9),
-                partial(_final, name=name, end=end, si=unit.si),
-            )
-            for head, end in ends.items()
-            for name in names
-        ),
-        (words("Drift", 0.9),
-         lambda prepared: Markup("<b>drifts</b>") if drifts(prepared) else "none"),
-    )  # fmt: skip
+    ]
+    for head, end in ends.items():
+        for name, short_name in names.items():
+            final = partial(_final, name=name, end=end, si=unit.si)
+            columns.append((plain(head, unit=short_name, share=0.9), final))
+    drift = Markup("<b>drifts</b>")
+    columns.append((words("Drift", 0.9), lambda prepared: drift if drifts(prepared) else "none"))
     prepared = package.assessment.shaking.prepared
     return listed(prepared, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 

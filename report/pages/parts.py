@@ -14,14 +14,12 @@ from markupsafe import Markup
 from report.assessment.assessment import Assessment
 from report.assessment.checks.alike import alike
 from report.assessment.checks.sentence import sentence
-from report.assessment.design.tested_friction import basis_words
 from report.assessment.design.verdict import Verdict
 from report.assessment.revision_changes import NO_FORMER, Changes
 from report.document.tables import stamp
 from report.drawing.on_paper import PrintedPlan, printed_plan
 from report.pages.marks import Marks
 from report.project.model import ProjectInput
-from report.project.model.array import Array
 from report.project.model.choices import PackageEdition, RecordedAt
 from report.project.model.friction_report import FrictionTests
 from report.provenance.package_sources import fingerprint
@@ -110,13 +108,10 @@ class PackageData:
         length = self.fmt.both(self.assessment.rules.length_m(key), show=show)
         return length + self.marks.of(key)
 
-    def friction_basis(self, array: Array) -> str:
-        """Return where the friction of an array comes from."""
-        return basis_words(self.data, array)
 
-    def bar(self, is_changed: bool, kind: str = "") -> str:
-        """Return the style of a row, with a bar in the margin where it changed."""
-        return f"{kind} {BAR}".lstrip() if is_changed else kind
+def bar(is_changed: bool, kind: str = "") -> str:
+    """Return the style of a row, with a bar in the margin where it changed."""
+    return f"{kind} {BAR}".lstrip() if is_changed else kind
 
 
 def all_or(ids: Sequence[str], n_arrays: int) -> str:

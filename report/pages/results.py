@@ -15,7 +15,7 @@ from report.assessment.design.friction import mu_words
 from report.assessment.support.evidence import Evidence
 from report.document.columns import ColumnHead, required, text, words
 from report.document.tables import Column, Table, TableRow, Wide, listed
-from report.pages.parts import PackageData, statistic
+from report.pages.parts import PackageData, bar, statistic
 from report.project.model.choices import Direction
 from report.runs import MotionRun
 from report.text.names import named
@@ -118,7 +118,7 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
         columns,
         fmt,
         kind="compact",
-        style=lambda run: package.bar(any((item.id, run.motion.id) in changed for item in group)),
+        style=lambda run: bar(any((item.id, run.motion.id) in changed for item in group)),
     )
     return replace(table, rows=(*table.rows, *_statistics(package, group, len(orientations))))
 
@@ -163,7 +163,7 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
                 *head.cells(value_m, fmt.none, head.units(fmt), mark),
                 Wide(about, len(_WAYS) + 5),
             ),
-            kind=package.bar(is_changed, "total"),
+            kind=bar(is_changed, "total"),
         )
 
 

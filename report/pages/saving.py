@@ -1,9 +1,10 @@
 """What an analysis could save where an array takes the prescriptive displacement, in sentences.
 
-    With an analysis, the design displacement of all arrays could be as low as 7.4 in (187 mm)
-    instead of 14.7 in (374 mm): without peer review, the floor is 50 % of the prescriptive one.
+    With an analysis, the design displacement of all arrays could be as low as 40.8 in (1036 mm)
+    instead of 81.6 in (2072 mm): without peer review, the floor is 50 % of the prescriptive
+    displacement (PV1-2012).
 
-`report.assessment.evidence` computes it.
+`report.assessment.support` computes it. Read `saving_words`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
 """The seismic parameters of the site in the order of a permit sheet, each with clause and source.
 
-Design acceleration, 0.2 s   S_DS   1.566 g   computed: 2/3 S_MS = 2/3 × 2.349 g   ASCE 7-16 11.4.5
+    Design spectral acceleration, short period   S_DS   1.566 g   computed: 2/3 S_MS = 2/3 × 2.349 g
+
+Read `site_table`.
 """
 
 from __future__ import annotations

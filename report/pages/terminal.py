@@ -2,9 +2,10 @@
 
 A line for each array, then what needs attention, then the verdict:
 
-    array  analysis          prescriptive      design            governing clearance  D/C
-    A1     17.0 in (432 mm)  14.9 in (378 mm)  17.0 in (432 mm)  A2                   0.71  OK
-    verdict: OK, largest D/C 0.71
+    array  analysis           prescriptive       design             governing clearance  D/C
+    A1     18.6 in (472 mm)   81.6 in (2072 mm)  40.8 in (1036 mm)  RTU-1                0.85  OK
+    A2     34.1 in (866 mm)   81.6 in (2072 mm)  40.8 in (1036 mm)  A1                   0.43  OK
+    verdict: OK, largest D/C 0.85
 
 Computes nothing. Read `summary`.
 """

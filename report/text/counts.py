@@ -1,7 +1,9 @@
 """Counts in sentences: spelled out up to nine, in digits beyond.
 
-counted(3, "array")    three arrays
-numbered(12, "run")    12 runs
+    counted(3, "array")    three arrays
+    numbered(12, "run")    12 runs
+
+Read `spelled`.
 """
 
 from __future__ import annotations

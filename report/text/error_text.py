@@ -1,6 +1,8 @@
-"""Errors, shares and times of a verification for print; an em dash is NaN.
+"""Errors, shares and times of a verification for print.
 
-scientific(3.2e-15)    3.2 × 10⁻¹⁵
+    scientific(3.2e-15)    3.2 × 10⁻¹⁵
+
+An em dash is NaN.
 """
 
 from __future__ import annotations

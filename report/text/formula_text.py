@@ -1,4 +1,4 @@
-"""Formulas in running text: Greek letters for their names, signs, and no line break inside.
+"""Formulas in running text: letters, signs, and no line break inside.
 
 The solver writes `mu`, a page prints μ.
 """

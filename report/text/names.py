@@ -1,6 +1,8 @@
 """Names of arrays, objects and motions: in sentences, in lines, and as part of a file name.
 
-named(["A1", "A2", "A3", "A9"], "array")    arrays A1 to A3, A9
+    named(["A1", "A2", "A3", "A9"], "array")    arrays A1 to A3, A9
+
+Read `ranged`.
 """
 
 from __future__ import annotations

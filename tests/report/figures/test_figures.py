@@ -26,7 +26,7 @@ from report.figures.records import accelerations
 from report.figures.spectra import spectra as drawn_spectra
 from report.manual import stability_maps as manual
 from report.manual import work_figures as work
-from report.pages.registry import draw_assessment, draw_plotted
+from report.pages.drawings import draw_assessment, draw_plotted
 from report.project.model.choices import UnitsFirst
 from report.study import study_charts as study
 from report.text.units import Quantity

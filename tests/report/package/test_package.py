@@ -19,7 +19,7 @@ from report.drawing.on_paper import printed_plan
 from report.figures.plan import paper_svg
 from report.package.html import pages as written
 from report.package.html import part
-from report.pages.registry import draw_assessment
+from report.pages.drawings import draw_assessment
 from report.project.model.choices import PlanPaper
 from report.text.names import name_lines
 from report.typeset.pdf import TEMPLATES, lay_out
