@@ -230,7 +230,7 @@ def test_the_sheet_of_the_plan_is_as_large_as_the_roof_needs_or_as_asked(
 ):
     package = package_data(thirty(paper, us_first))
     on = printed_plan(package.assessment)
-    drawings = {"plan": [on, *map(figures.paper_svg, (on.plan, on.key))]}
+    drawings = {"plan": [figures.paper_svg(on.plan), figures.paper_svg(on.key)]}
     path = tmp_path / "plan.pdf"
     path.write_bytes(lay_out(part(package, None, "plan", drawings)))
     with pikepdf.open(path) as pdf:
