@@ -174,7 +174,7 @@ def test_the_launcher_says_what_to_ask_for_then_installs_and_runs(windows, check
 
     page_is_opened_by_a_double_click(windows, checkout)
 
-    line = r".\roofslip test tests\solver tests\report\test_worker_process.py"
+    line = r".\roofslip test tests\solver tests\report\web\test_worker_process.py"
     code, told = launched(windows, checkout, line, path=path)
     assert code == 0, told
     assert "roofslip: setting up .venv from requirements.lock (once, for test;" in told
