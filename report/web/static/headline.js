@@ -65,11 +65,11 @@ function parts({ answer, phase, shows, failure }) {
 
 // The check that governs, with a bar of its D/C and what it was for the workbook.
 function ratioOf({ text, ratio, ratio_text: told }, before) {
-  const bar = html("span", { class: `dc-bar${ratio > 1 ? " is-over" : ""}`, "aria-hidden": "true" }, html("span", {}), html("i", {}));
-  bar.style.setProperty("--share", share(ratio ?? 0));
+  const bar = html("span", { class: `dc-bar${(ratio ?? FULL_BAR) > 1 ? " is-over" : ""}`, "aria-hidden": "true" }, html("span", {}), html("i", {}));
+  bar.style.setProperty("--share", share(ratio ?? FULL_BAR)); // of no capacity it is infinite
   bar.style.setProperty("--one", share(1));
   const was = before && before.ratio_text !== told && before.text === text ? html("span", { class: "before" }, `${before.ratio_text} → `) : null;
-  if (ratio === null) return null;
+  if (!told) return null;
   return [bar, html("span", { class: "worst-ratio numbers" }, html("small", {}, term("D/C")), " ", was, html("strong", {}, told))];
 }
 
