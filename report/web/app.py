@@ -5,6 +5,7 @@ Computes nothing (`workers`) and admits nobody (`access`). Read `made`.
 
 from __future__ import annotations
 
+import json
 import mimetypes
 import shutil
 from collections.abc import AsyncIterator, Awaitable, Callable, Collection, Mapping, Sequence
@@ -76,7 +77,8 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
                 Route(path, partial(_open_new, store=partial(_filled, do=do)), methods=["POST"])
                 for path, do in (("/api/plan", "read_plan"), ("/api/cells", "fill_in"))
             ),
-            Route("/api/clearances", _clearances, methods=["POST"]),
+            Route("/api/clearances", partial(_changed, do="add_clearances"), methods=["POST"]),
+            Route("/api/edit", partial(_changed, do="fill_in"), methods=["POST"]),
             *(Route(f"/api/{name}", _job, methods=["POST"]) for name in _JOBS),
             Route("/api/workbook", workbook, methods=["POST"]),
             Route("/api/blank", blank),
@@ -105,6 +107,7 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
 _JOBS = {
     "assess": (),
     "verdict": (),
+    "tables": (),
     "slide": ("array", "motion"),
     "contour": ("array",),
 }
@@ -150,18 +153,20 @@ async def _example(request: Request) -> Response:
     return JSONResponse(state)
 
 
-async def _clearances(request: Request) -> Response:
-    """Open a copy of what is open, with a clearance for each pair of the plan that lacks one."""
-    request.state.opened = (await receive_json(request)).opened
-    return await _open_new(request, _with_clearances)
+async def _changed(request: Request, do: str) -> Response:
+    """Open a copy of a project that a job changes: clearances of its plan, or cells as typed."""
+    request.state.asked = await receive_json(request)
+    return await _open_new(request, partial(_copy, do=do))
 
 
-async def _with_clearances(request: Request, folder: Path) -> Path:
-    session = session_of(request)
-    current = session.workbook(request.state.opened)
+async def _copy(request: Request, folder: Path, do: str) -> Path:
+    session, asked = session_of(request), request.state.asked
+    current = session.workbook(asked.opened)
     workbook = folder / "project" / current.name
     await run_in_threadpool(copied, current, workbook.parent)
-    await session.ask({"do": "add_clearances", "workbook": str(current), "to": str(workbook)})
+    await session.ask(
+        {"do": do, "workbook": str(current), "to": str(workbook), "cells": json.dumps(asked.cells)}
+    )
     return workbook
 
 
@@ -173,6 +178,8 @@ async def _filled(request: Request, folder: Path, do: str) -> Path:
     fields = {name: request.state.fields.get(name, "") for name in ("layers", "unit", "cells")}
     job = {"do": do, "workbook": str(workbook), "to": str(filled), **fields}
     request.state.lines = (await session.ask(job))["lines"]
+    # One is opened, and one stays to be saved when the other has been replaced.
+    await run_in_threadpool(shutil.copyfile, filled, workbook)
     session.filled = filled
     return workbook
 

@@ -165,7 +165,7 @@ def _drawings(workbook: Path) -> Iterator[Path]:
 
 
 def read_plan(workbook: Path, job: Json) -> Json:
-    """Fill in the plan of a workbook from the drawing beside it; keep a copy at another path.
+    """Write a workbook with its plan from the drawing beside it to another path.
 
     Places that are filled are replaced: what was sent stays as it is where it came from. Without a
     unit the drawing is read in the one that it states, which may be asked about. Answers with the
@@ -184,19 +184,16 @@ def read_plan(workbook: Path, job: Json) -> Json:
     plan, layers = plan_as_rows(drawn, LENGTHS[unit], inputs, layers, is_unit_given=is_given)
     lines = fill_plan(change, plan, layers, replace=True)
     lines = [*filter(None, (drawn.repairs,)), *unread(plan), *lines, *withdrawn(change)]
-    # One is opened, and one stays to be saved when the other has been replaced.
-    for path in (workbook, Path(job["to"])):
-        path.write_bytes(change.book.data)
+    Path(job["to"]).write_bytes(change.book.data)
     return {"lines": lines}
 
 
 def fill_in(workbook: Path, job: Json) -> Json:
-    """Fill in cells of a workbook as typed on the page; keep a copy at another path."""
+    """Write the workbook with cells as typed on the page to another path."""
     change = WorkbookChange(open_book(workbook))
     change.fill(typed_cells(json.loads(job["cells"])))
     withdrawn(change)
-    for path in (workbook, Path(job["to"])):
-        path.write_bytes(change.book.data)
+    Path(job["to"]).write_bytes(change.book.data)
     return {"lines": []}
 
 
@@ -258,6 +255,7 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "add_clearances": add_clearances,
     "read_plan": read_plan,
     "fill_in": fill_in,
+    "tables": lambda workbook, _: {"tables": tables(workbook)},
     "blank": blank,
     "verdict": verdict,
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),

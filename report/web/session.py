@@ -79,6 +79,7 @@ class Asked(BaseModel):
     array: str | None = None
     motion: str | None = None
     run: str | None = None
+    cells: dict[str, str] = Field({}, max_length=5_000)
 
 
 class Session:

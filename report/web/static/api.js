@@ -71,6 +71,8 @@ export function createApi(announce, room) {
     blank: (units) => downloaded(`/api/blank?units=${units}`),
     filledWorkbook: () => downloaded("/api/plan"),
     addClearances: () => open("/api/clearances", about({})),
+    tables: () => asked("/api/tables", about({})),
+    edit: (cells) => open("/api/edit", about({ cells })),
     assess: (moving, values, whole = false) => computed("assess", { moving, whole, values, room: room() }, moving ? "moving" : "assess"),
     computed,
     // Of no page: it makes nothing stale that the page shows.

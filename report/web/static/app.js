@@ -3,7 +3,7 @@
 import { createApi } from "./api.js";
 import { changes, fromFragment, toAddress } from "./changes.js";
 import { mountHeadline } from "./headline.js";
-import { named, showErrors, showProject, showSteps, warnings } from "./heading.js";
+import { named, showErrors, showProject, showSteps, showTables, warnings } from "./heading.js";
 import { button, html, replace } from "./make.js";
 import { mountDrawing, mountMotions } from "./offers.js";
 import { mountTakeaway } from "./package.js";
@@ -31,6 +31,7 @@ let dropped = null; // the files of the last upload
 let awaited = null; // the address of a project that is not open
 let drawControls = null; // of the project that is open
 let typed = {}; // into the fields of a workbook with errors, by cell
+let isEdited = false; // whether that changes the project that is open
 let faulty = []; // what these cells had, such as the paths of records
 
 const plan = mountPlan(part("plan-drawing"), session, { said: part("plan-said"), zooms: ["zoom-in", "zoom-out", "zoom-fit"].map(part) });
@@ -71,6 +72,7 @@ session.draws(onChange(["phase", "answer"], findTurns));
 
 part("back").addEventListener("click", () => showProject(state));
 part("new").addEventListener("click", () => startNew().catch(fail));
+part("edit").addEventListener("click", () => editTables().catch(fail));
 part("check").addEventListener("click", () => fillIn().catch(fail));
 part("save-filled").addEventListener("click", () => fillIn().then(saveFilled).catch(fail));
 part("example").addEventListener("click", () => opening(api.example, { words: "Opening the example …" }));
@@ -130,8 +132,23 @@ async function startNew() {
   take([{ file: new File([blob], name), path: name }]);
 }
 
+// Show the tables of the project that is open, and what is typed into them then.
+async function editTables() {
+  const { tables } = await api.tables();
+  typed = showTables(tables);
+  part("save-filled").hidden = true;
+  isEdited = true;
+}
+
 // Check the workbook with what is typed in it.
 async function fillIn() {
+  if (isEdited) {
+    const before = typed;
+    await opening(() => api.edit(before), { words: "Checking the workbook …" });
+    // With errors it is still a change of what is open.
+    if (part("workspace").hidden) [isEdited, typed] = [true, Object.assign(typed, before, typed)];
+    return;
+  }
   let next = null;
   await opening(
     async () => {
@@ -184,6 +201,7 @@ function open(next, valuesOf) {
   showSteps(next);
   if (next.problems.length > 0) {
     typed = showErrors(next, state);
+    [part("save-filled").hidden, isEdited] = [false, false];
     faulty = next.problems.flatMap(({ row }) => (row ? [row.cells[row.at]] : []));
     return;
   }

@@ -7,6 +7,7 @@ const ALONE =
   "Only the workbook was uploaded. Drop its records on this page, or its folder. Cells below that name a record are not wrong in themselves.";
 const CORRECT =
   "Correct these cells here or in the workbook; what is typed here is filled into a copy that you can save. Records may follow: drop them on this page.";
+const EDIT = "Change cells or fill in rows below. What is typed goes into a copy of the workbook, which is opened in place of this one; save it with Save workbook.";
 const NEXT = {
   arrays: "Next: plan. List the arrays on the Arrays worksheet, or drop a drawing (DXF) beside the workbook: they are read from it.",
   motions: "No motions are entered: the displacements are prescriptive, and their package can be made. For the analysis procedure, list motions on the Motions worksheet, or generate them for this site here.",
@@ -35,6 +36,14 @@ export function showErrors({ problems, tables, is_alone: isAlone, lacks }, { pro
   for (const id of ["workspace", "outline", "welcome"]) part(id).hidden = true;
   named(isNew ? "A new project" : "This workbook has errors");
   return typed;
+}
+
+/** Show the tables of the project that is open, to be changed; returns what is typed. */
+export function showTables(tables) {
+  part("workspace").hidden = true;
+  part("back").hidden = false;
+  part("back").textContent = "Back";
+  return showProblems(part("problems"), { problems: [], tables }, "Edit the workbook", EDIT);
 }
 
 /** Show the project that is open in place of errors. */
