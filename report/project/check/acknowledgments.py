@@ -32,6 +32,6 @@ def _idle(data: ProjectInput, findings: Iterable[Finding]) -> Iterator[Finding]:
     known = {_key(name) for name in ids}
     for index, row in enumerate(data.acknowledged):
         if _key(row.warning) not in known:
-            text = f"warning is '{row.warning}', which is not given; "
+            text = f"warning is '{row.warning}', which is not entered; "
             text += suggestion(row.warning, ids) if ids else "delete the row"
             yield note(Place("acknowledged", index, "warning"), text)
