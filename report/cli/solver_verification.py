@@ -44,7 +44,7 @@ def verify_solver(out: Path | None, *, quick: bool, records: Path | None) -> Non
     click.echo(colored(f"{verdict}: {passed} of {len(verification.checks)} checks passed"))
     if verification.left_out:
         left_out = numbered(len(verification.left_out), "check")
-        click.echo(f"{left_out} left out: SciPy is not installed; install roofslip[verify]")
+        click.echo(f"{left_out} left out: SciPy is not installed; install the extra verify")
     for row in failed:
         click.echo(
             f"  {row.section}: {row.problem}, {row.quantity}: expected {row.expected:.10g}, found "

@@ -26,6 +26,6 @@ def optional_package(name: str) -> Any:
         raise InputError(
             f"a study needs the package {package}, which is not installed; type: "
             "./roofslip study (the launcher installs the extra), or: "
-            "pip install 'roofslip[study]'"
+            "pip install '.[study]' in its folder"
         ) from error
     return sys.modules[package]

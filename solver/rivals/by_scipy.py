@@ -38,7 +38,7 @@ def _scipy(module: str) -> Any:
     except ImportError:
         raise InputError(
             "SciPy is not installed, which this method needs; "
-            "install roofslip[verify] or choose another method"
+            "install the extra verify or choose another method"
         ) from None
 
 

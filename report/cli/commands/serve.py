@@ -40,7 +40,7 @@ def serve(host: str | None, token_file: Path | None, **options: Any) -> None:
     """
     missing = [name for module, name in _NEEDED.items() if find_spec(module) is None]
     if missing:
-        click.echo(f"The page needs {', '.join(missing)}: install roofslip[web].", err=True)
+        click.echo(f"The page needs {', '.join(missing)}: install the extra web.", err=True)
         sys.exit(INPUT_ERROR)
     if host is not None and token_file is None:
         raise click.UsageError("--host needs --token-file: a file with the token of the address")

@@ -35,7 +35,7 @@ _PLUMB_DEG = 5.0
 _INSTALL = (
     "is read by ObsPy, which is not installed; type the command of ./roofslip motion with a name"
     " that ends with .mseed or .sac (the launcher installs it then), or: pip install"
-    " 'roofslip[seismic]'"
+    " '.[seismic]' in its folder"
 )
 
 

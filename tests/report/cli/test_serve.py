@@ -36,7 +36,7 @@ def test_a_host_needs_a_token_and_a_port_that_is_taken_and_a_missing_package_are
     assert f"Port {port} of 127.0.0.1 is in use: end what uses it, or give another --port." in told
     assert "Address already in use" not in told
     monkeypatch.setitem(sys.modules, "uvicorn", None)
-    assert "install roofslip[web]" in errors_of("serve", "--no-browser")
+    assert "install the extra web" in errors_of("serve", "--no-browser")
 
 
 @pytest.mark.parametrize("token", ["", "short", "a token with spaces in it", "x" * 19])

@@ -250,7 +250,7 @@ def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_w
     done, out = run("verify", "--quick", "--out", tmp_path / "v"), tmp_path / "v"
     first, second, *_ = done.stdout.splitlines()
     assert (done.exit_code, first) == (1, "FAIL: 1 of 2 checks passed")
-    assert second == "7 checks left out: SciPy is not installed; install roofslip[verify]"
+    assert second == "7 checks left out: SciPy is not installed; install the extra verify"
     assert "  Physical checks of the paper: P, PRD: expected 2, found 1.5 m" in done.stdout
     assert not list(out.glob(".roofslip-*"))
     for name in ("verification.pdf", "verification.csv"):

@@ -176,7 +176,7 @@ def test_without_the_extra_the_command_says_what_to_type(tmp_path, monkeypatch, 
     monkeypatch.setitem(sys.modules, missing, None)
     done = command(tmp_path)
     assert done.exit_code == 2
-    assert "pip install 'roofslip[study]'" in done.output
+    assert "pip install '.[study]' in its folder" in done.output
     assert "./roofslip study" in done.output
 
 

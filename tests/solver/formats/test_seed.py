@@ -113,7 +113,7 @@ def test_each_component_is_a_channel_and_without_obspy_what_to_install_said(file
     monkeypatch.setitem(sys.modules, "obspy", None)
     (problem,) = problems_of(file(miniseed(COUNTS)))
     assert problem.startswith("roof.csv: miniSEED is read by ObsPy, which is not installed; type")
-    assert problem.endswith("pip install 'roofslip[seismic]'")
+    assert problem.endswith("pip install '.[seismic]' in its folder")
 
 
 @pytest.mark.parametrize(
