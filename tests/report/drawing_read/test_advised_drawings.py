@@ -139,7 +139,7 @@ class Kind:
 
 
 KINDS = {
-    "no unit": Kind(lambda: text_of(plain(code=0)), r"add --units with one of .*\bft\b",
+    "no unit": Kind(lambda: text_of(plain(code=0)), r"use --units with one of .*\bft\b",
                     then=("--units", "ft")),
     "survey feet": Kind(lambda: text_of(plain(code=21)), r"give --units (\w+)", then=("--units",)),
     "feet that say yards": Kind(lambda: text_of(plain(code=10)), r"give --units (\w+)",
@@ -150,7 +150,7 @@ KINDS = {
         lambda: text_of(plain("m", code=2)), r"Unit on the page\): (m)\b", before=ours,
         given=("--replace",), then=("--replace", "--units"),
     ),
-    "layers of others": Kind(lambda: text_of(plain(layers=OTHERS)), "add --accept to take what",
+    "layers of others": Kind(lambda: text_of(plain(layers=OTHERS)), "use --accept to accept",
                              then=("--accept",)),
     "layers that nobody knows": Kind(lambda: text_of(plain(layers=UNKNOWN)),
                                      "or --layer NAME=KIND for a layer", then=CHOSEN),

@@ -132,7 +132,10 @@ def test_formulas_and_all_other_parts_stay(tmp_path):
     weight = "Arrays/A1/Weight"
     before = parts(type_into(path, {weight: "=40000+2000"}))
     output = run(drawing(tmp_path), tmp_path, "--replace")
-    assert "Formulas that refer to it have no value until Excel or LibreOffice saves it." in output
+    assert (
+        "Open and save the workbook in Excel or LibreOffice once to recalculate its formulas."
+        in output
+    )
     assert (
         len(different(before, parts(path))) <= 5
     )  # Arrays, Objects, Outlines, the roof, and when to compute
@@ -169,7 +172,7 @@ def test_rows_that_a_table_grows_by_have_its_formulas_and_formats(tmp_path, unit
 def test_a_drawing_without_a_unit_and_polygons_without_their_sheet_are_refused(tmp_path):
     path, book = drawing(tmp_path, "R12"), new(tmp_path)
     output = run(path, book, exit_code=2)
-    assert "states no unit; add --units with one of in, ft, mm, cm, m" in output
+    assert "states no unit; use --units with one of in, ft, mm, cm, m" in output
     run(path, book, "--units", "ft")
     path = make(tmp_path, clearances=[])
     edit(path, lambda book: book.remove(book["Outlines"]))
@@ -203,7 +206,7 @@ def test_layers_that_nobody_named_are_shown_with_a_proposal_and_nothing_is_writt
         ["E-SOLR-PANL", "2", "2 LWPOLYLINE, 2 MTEXT", "array"],
         ["M-HVAC-EQPM", "2", "2 LWPOLYLINE", "fixed object"],
     ]
-    assert "nothing is written: nobody says what is drawn on 5 layers; add --accept" in output
+    assert "nothing was written: no type is known for 5 layers; use --accept" in output
     run(drawn, path, "--layer", "A-ROOF-TANK=fixed object", exit_code=2)  # and the other four
     assert path.read_bytes() == before
 
@@ -225,7 +228,7 @@ def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     assert heights["RTU-1"] == pytest.approx(3.5 * FT)
     assert heights["RTU-2"] == pytest.approx(4.0 * FT)
     assert heights["TANK"] == pytest.approx(5.0 * FT)
-    for said in ("turned counterclockwise by -17°", "the drawing states no north: check",
+    for said in ("rotated counterclockwise by -17°", "the drawing states no north: check",
                  "layer a-roof-tank: fixed object\nlayer A-ANNO-NOTE: ",
                  "A1: array, 4 vertices, 80.00 ft (24.38 m) by 30.00 ft (9.14 m) from ",
                  "(ELEV 60.0 in (1524 mm); taken as above the roof)",
@@ -267,7 +270,7 @@ def test_the_north_of_the_drawing_turns_it(tmp_path):
     output = run(facing(tmp_path, -1, 1), path)
     assert "north is 135° counterclockwise from +x" in output
     output = run(facing(tmp_path, -1, 1), path, "--rotate", "north", "--replace")
-    assert "turned counterclockwise by -45° about the origin of the drawing" in output
+    assert "rotated counterclockwise by -45° about the origin of the drawing" in output
     assert "north is 90° counterclockwise from +x" in output
     assert "at -45° to the axes" in output
 
