@@ -128,10 +128,10 @@ def test_a_round_says_what_changed_up_to_a_number(tmp_path, capsys, monkeypatch)
         second = capsys.readouterr().out.splitlines()
         report_again(type_into(path, {FRICTION: 0.5, PROVIDED: 31.0}), None, again)
     third = capsys.readouterr().out.splitlines()
-    assert "since the round before" not in first
-    assert second[-1] == "changes since the round before: 0"
+    assert "since the last report" not in first
+    assert second[-1] == "changes since the last report: 0"
     assert third[-1].endswith(f" {address(path, FRICTION)}: 0.45 -> 0.5")
-    assert int(third[-2].removeprefix("changes since the round before: ")) > 1
+    assert int(third[-2].removeprefix("changes since the last report: ")) > 1
 
 
 UNLAID = """
@@ -181,7 +181,7 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
         path.write_bytes(whole[: len(whole) // 2])
         time.sleep(0.5)
         path.write_bytes(whole)
-        until("changes since the round before: ")
+        until("changes since the last report: ")
         assert f" {address(path, FRICTION)}: 0.45 -> 0.5" in until("  ")
         until("watching ")
         record.write_text(record.read_text() + "0.0\n")

@@ -30,12 +30,12 @@ def rows(*words):
 def test_a_folder_is_listed_and_where_records_were_recorded_asked(library, tmp_path):
     told = commands.stdout_of(*rows(library))
     assert "KJM     x  kobe/KJM-x.csv" in told
-    assert "not taken: lone.csv: neither its heading (none) nor its name has a component" in told
+    assert "skipped: lone.csv: neither its heading (none) nor its name has a component" in told
     path = make(tmp_path / "p")
-    assert "give --at roof or --at ground" in commands.errors_of(*rows(library, path))
+    assert "use --at roof or --at ground" in commands.errors_of(*rows(library, path))
     assert not (tmp_path / "p" / "records" / "kobe").exists()
     told = commands.errors_of(*rows(library, path, "--at", "roof", "--only", "nothing"))
-    assert "no set of two horizontal records and a vertical one to take" in told
+    assert "no set of two horizontal records and a vertical one found" in told
 
 
 @pytest.mark.nightly
@@ -44,7 +44,7 @@ def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
     before = read(path).project.motions
     told = commands.stdout_of(*rows(library, tmp_path / "p", "--at", "roof"))
     assert "6 records copied." in told
-    assert f"{path}: 2 rows added to the sheet Motions: Motions!" in told
+    assert f"{path}: 2 rows added to the Motions worksheet: Motions!" in told
     *standing, first, second = read(path).project.motions
     assert tuple(standing) == before
     assert [m.id for m in (first, second)] == ["PET", "KJM"]
