@@ -131,7 +131,7 @@ def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(of_cells, nu
     assert set(with_addresses(f"{name} is {line}")) <= set(of_cells[number])
 
 
-NO_CLEARANCE = dict.fromkeys(("Array", "Object", "Direction", "Provided clearance"))
+NO_CLEARANCE = dict.fromkeys(("Array", "Object", "Direction", "Provided clearance", "Fire pathway"))
 IN_ARRAYS, AND_OBJECTS = "which is not in Arrays; give one of", "which is not in Objects or Arrays;"
 SPECTRUM = row_cells("Spectrum/1", {"Period": 8, "Horizontal": 8})
 SPECTRUM |= row_cells("Spectrum/2", {"Period": 9, "Horizontal": 9})
