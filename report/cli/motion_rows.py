@@ -57,8 +57,8 @@ def add_motions(
         if without:
             click.echo(
                 f"note: {plain(', '.join(without))}: without a vertical record. Motions for"
-                " analysis have two horizontal components and the vertical together: the value"
-                " from analysis is not permitted with these."
+                " analysis have two horizontal components and the vertical together: the"
+                " analysis procedure is not permitted with these."
             )
         if not sets:
             raise InputError("no set of two horizontal records and a vertical one found")

@@ -78,7 +78,9 @@ def generate_suite(
         return
     for line in said_near(folder):
         click.echo(plain(f"warning: {line}"), err=True)
-    click.echo("Next: copy the records into records/ of a project, list them on its sheet Motions,")
+    click.echo(
+        "Next: copy the records into records/ of a project, list them on its Motions worksheet,"
+    )
     click.echo(f"then run: {called()} check DIR")
 
 

@@ -36,7 +36,7 @@ _MOVE = "Run roofslip new FOLDER and copy your cells into the new workbook"
 
 
 def layers_of(inputs: Inputs) -> dict[str, LayerKind]:
-    """Return what the sheet Layers says of layers."""
+    """Return what the Layers worksheet says of layers."""
     known = (row for row in inputs["layers"] if {"layer", "kind"} <= row.keys())
     return {row["layer"]: row["kind"] for row in known}
 
@@ -52,8 +52,8 @@ def plan_as_rows(
 ) -> tuple[RoofPlan, dict[str, LayerKind]]:
     """Return the plan of a drawing, as rows of a workbook, and what is said of its layers.
 
-    `layers` add to the sheet Layers; a layer that nobody says anything of is not read. `joined_m`
-    is the largest gap between modules of one array.
+    `layers` add to the Layers worksheet; a layer that nobody says anything of is not read.
+    `joined_m` is the largest gap between modules of one array.
 
     Raises `InputError` if there is nothing to fill in; for sizes that few have, unless somebody
     has given the unit.
@@ -83,7 +83,7 @@ def _refuse(plan: RoofPlan, drawn: RoofDrawing) -> NoReturn:
             raise InputError(f"{text}; move them there in CAD")
         text = "the drawing has no closed lines; draw roof, arrays and objects as such in CAD"
         raise InputError([text, *unread(plan)])
-    raise InputError(["nothing to fill in: give the layers on the sheet Layers", *unread(plan)])
+    raise InputError(["nothing to fill in: give the layers on the Layers worksheet", *unread(plan)])
 
 
 def unread(plan: RoofPlan) -> Iterator[str]:
@@ -130,7 +130,7 @@ def fill_plan(
 
 
 def _check_outlines(change: WorkbookChange, plan: RoofPlan, replace: bool) -> None:
-    """Refuse polygons for a workbook without the sheet Outlines."""
+    """Refuse polygons for a workbook without the Outlines worksheet."""
     if not is_absent(change.book, SECTION["outlines"]):
         return
     places = {place.name: place.shape for place in (*plan.arrays, *plan.objects)}

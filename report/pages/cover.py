@@ -19,7 +19,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         description="First issue",
         by=project.prepared_by,
     )
-    # A title block has a first line even where the sheet Revisions is empty.
+    # A title block has a first line even where the Revisions worksheet is empty.
     revisions = package.data.revisions or [first]
     rows = [(row.revision, row.date, row.description, row.by or "—") for row in revisions]
     columns = ("Rev.", 0.6), ("Date", 1.2), ("Description", 4), ("By", 1.8)

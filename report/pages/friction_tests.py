@@ -1,6 +1,6 @@
 """Friction as tested: the report, its runs and means, and what is missing.
 
-Nothing here is canned: every sentence follows from the sheet Friction tests.
+Nothing here is canned: every sentence follows from the Friction tests worksheet.
 """
 
 from __future__ import annotations

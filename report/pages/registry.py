@@ -141,7 +141,7 @@ def package_data(
 ) -> PackageData:
     """Return an assessment with the part numbers, and what changed since a former revision.
 
-    Without an edition, that of the sheet Options.
+    Without an edition, that of the Options worksheet.
     """
     edition = edition or assessment.project.options.package_edition
     numbers = _numbers(pages_of(edition, since, has_motions=assessment.has_motions))

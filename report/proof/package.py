@@ -307,7 +307,7 @@ def _not_compared(theirs: Manifest, ours: Manifest) -> str:
     return f"drawings not compared: {_READ}{names}"
 
 
-_READ = "read the package made again"
+_READ = "read the regenerated package"
 
 
 def _is_other(theirs: str) -> bool:

@@ -252,7 +252,7 @@ _KINDS = {
     "workbook": ("Source", "Input workbook"),
     "record": ("Data", "Record of motion"),
     "document": ("Supplement", "Document that the workbook names"),
-    "former": ("Source", "Results of the former revision"),
+    "former": ("Source", "Results of the previous revision"),
     "results": ("Data", "Results, with units in their keys"),
     "manifest": ("Supplement", "What the package is computed from, and by which software"),
 }

@@ -101,7 +101,7 @@ def write_clearances(pages: Pages, assessment: Assessment, inputs: InputCells) -
         GAPS,
         rows,
         "Clearances",
-        f"{assessment.rules.name}. From the sheet Design; between two arrays the larger "
+        f"{assessment.rules.name}. From the Design worksheet; between two arrays the larger "
         "displacement governs. The factor includes I_e or I_p if the rule set applies it here."
         + (f" {MEANING}." if assessment.is_overridden else ""),
     )

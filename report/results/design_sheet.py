@@ -1,6 +1,6 @@
 """The sheet Design of results.xlsx: from the peaks to the design displacement and the verdicts.
 
-Live formulas, each written with the value from `report.assessment`: with the sheets Peaks,
+Live formulas, each written with the value from `report.assessment`: with the worksheets Peaks,
 and Inputs that Design follows from. Read `DESIGN`.
 """
 
@@ -66,7 +66,7 @@ def write_peaks(pages: Pages, assessment: Assessment) -> PeakRanges:
     """Write the largest excursion of all runs of each motion, by direction; return the PRDs."""
     rows: list[SheetRow] = []
     ranges: dict[str, str] = {}
-    # Below the one row of headings of the sheet Runs, in the order in which it lists them.
+    # Below the one row of headings of the Runs worksheet, in the order in which it lists them.
     first_run = 2
     for item in assessment.arrays:
         first = TOP + len(rows)
@@ -75,7 +75,7 @@ def write_peaks(pages: Pages, assessment: Assessment) -> PeakRanges:
             first_run += len(motion.runs)
             rows.append(SheetRow(item=_Peak(array=item, motion=motion), refs={"runs": runs}))
         ranges[item.id] = Cells(PEAKS, first, TOP + len(rows) - 1).any_m
-    note = "Largest of all runs of each motion, by direction, from the sheet Runs."
+    note = "Largest of all runs of each motion, by direction, from the Runs worksheet."
     write_live(pages, PEAKS, rows, "Peaks", note)
     return ranges
 
@@ -101,8 +101,8 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
     sheet = pages.sheet(
         "Inputs",
         "Inputs of the project",
-        "Change a yellow cell here, or on the sheets Design and Clearances: the verdicts follow. "
-        "Procedure, limits, motions and runs are those of the report.",
+        "Change a yellow cell here or on the Design and Clearances worksheets; verdicts update. "
+        "Procedure, limits, motions and runs are not recalculated.",
         ("Input", "Value", "Use"),
         [(item.label, f"{item.value}", item.use) for item in inputs],
     )
@@ -198,7 +198,7 @@ class DesignRow:
 
     item: ArrayAssessment
     verdict: Verdict
-    cause: str  # of a verdict that no number of the sheet Summary shows
+    cause: str  # of a verdict that no number of the Summary worksheet shows
     others: Verdict  # the worst of what the formulas do not follow
     s_ds_g: float
     factor_m: float
@@ -259,7 +259,7 @@ DESIGN = SheetLayout(
 # What the sheet follows from, with motions and without.
 _FROM = {
     True: "From the sheets Peaks, any direction, and Inputs.",
-    False: "From the sheet Inputs; no motions are given, and the displacement is prescriptive.",
+    False: "From the Inputs worksheet; no motions are given, and the displacement is prescriptive.",
 }
 
 

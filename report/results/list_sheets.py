@@ -214,7 +214,7 @@ def write_requirements(pages: Pages, assessment: Assessment) -> None:
         _CHECKS,
         rows,
         "Checks",
-        "Satisfied or not. The verdict on the project and on each array is on the sheet Summary.",
+        "The verdict on the project and on each array is on the Summary worksheet.",
     )
 
 
@@ -389,7 +389,7 @@ def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cell
         _LINKS,
         rows,
         "Rows of linked blocks",
-        "From the sheets LinkRuns and Design. Ratio: row / rigid, one axis. Design with links: "
+        "From the LinkRuns and Design worksheets. Ratio: row / rigid, one axis. Design with links: "
         "max(max(1, ratio) x computed, floor).",
     )
     sheet.write_row(top - 2, 0, [column.head for column in _LINK_PEAKS.own], pages.head)

@@ -38,7 +38,7 @@ def check_listed(changes: Changes) -> None:
     letters = sum(len(item.title) + len(item.before) + len(item.now) for item in changes.items)
     if count > MOST_CHANGES or letters > MOST_LETTERS:
         raise InputError(
-            f"--since: the list of changes has {count:,} rows of {letters:,} letters; at most"
+            f"--since: the list of changes has {count:,} rows of {letters:,} characters; at most"
             f" {MOST_CHANGES:,} of {MOST_LETTERS:,} are listed; {GIVE} of this project"
         )
 

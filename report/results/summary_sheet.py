@@ -34,7 +34,7 @@ _OF_OPEN = ("Not satisfied", "Of", "Found", "Required", "Who acts", "What must b
 _WIDTHS = (26, 26, 24, 22, 13, 26, 12)  # [letters]
 _NOTE = (
     "As sheet 1 of the calculation package. Verdicts, displacements and the governing clearance "
-    "follow the yellow cells of the sheets Inputs, Design and Clearances; all else is of the "
+    "follow the yellow cells of the Inputs, Design and Clearances worksheets; all else is of the "
     "package. Spectra, runs and unrounded values are data and do not print."
 )
 
@@ -44,7 +44,7 @@ def write_summary(
 ) -> None:
     """Write the head, the arrays, the checks that govern and what is not satisfied.
 
-    From the rows of the sheets Design and Clearances.
+    From the rows of the Design and Clearances worksheets.
     """
     sheet: Worksheet = pages.workbook.get_worksheet_by_name("Summary")
     for at, width in enumerate(_WIDTHS):
@@ -118,7 +118,7 @@ def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
 
 
 def _array(row: DesignRow, place: int) -> Sequence[_Value]:
-    """Return an array with its displacements, rounded as on the sheet Design."""
+    """Return an array with its displacements, rounded as on the Design worksheet."""
     cells = Cells(DESIGN, place)
     lengths = [
         (f"={cells.printed(name)}", DESIGN.printed(row, name))

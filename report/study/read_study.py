@@ -59,7 +59,7 @@ def read_study(path: Path) -> StudySheet:
     return sheet
 
 
-# Lists of the sheet Study: in words, and what their numbers may be. NaN fits none.
+# Lists of the Study worksheet: in words, and what their numbers may be. NaN fits none.
 _AXES: Mapping[str, tuple[str, Callable[[float], bool], str]] = {
     "slopes_deg": ("slopes", lambda v: 0.0 <= v <= 45.0, "from 0 to 45"),
     "intensities": ("intensities", lambda v: 0.0 < v <= 100.0, "above 0, to 100"),
@@ -126,9 +126,9 @@ def _about_study(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
 def _about_motions(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
     if "folder" in study and bool(study["folder"]) == bool(inputs["motions"]):
         if study["folder"]:
-            yield _at("folder", "a folder is named and the sheet Motions has rows", "keep one")
+            yield _at("folder", "a folder is named and the Motions worksheet has rows", "keep one")
         else:
-            yield _at("folder", "no folder and no row on the sheet Motions")
+            yield _at("folder", "no folder and no row on the Motions worksheet")
     is_ground = study.get("recorded_at") is RecordedAt.GROUND
     if is_ground and not inputs["buildings"]:
         text = "ground motions need at least one building"
@@ -155,9 +155,9 @@ def _about_arrays(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
     names = {name.casefold() for _, name in column(inputs, ("mats",), "id")}
     for place, mat in column(inputs, ("study_arrays", "friction_runs"), "mat"):
         if mat.casefold() not in names:
-            yield Finding.error(place, f"mat '{mat}' is not on the sheet Mats", "add it")
+            yield Finding.error(place, f"mat '{mat}' is not on the Mats worksheet", "add it")
     if study.get("site_intensity") and not inputs["study_arrays"]:
-        accepted = "fill in a row of the sheet Arrays"
+        accepted = "fill in a row of the Arrays worksheet"
         yield _at("site_intensity", "is given, but no array is", accepted)
     # Combinations are of tested values, and an intensity has none.
     is_combined = study.get("sampling") is Sampling.ALL_COMBINATIONS
@@ -204,7 +204,7 @@ def _about_hazard(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
         accepted = " or ".join(measure.letters for measure in measures)
         yield _at("intensity", "has no hazard curve", f"choose {accepted}, or clear the hazard")
     if not inputs["study_arrays"]:
-        yield at("file", "is given, but no array is", "fill in a row of the sheet Arrays")
+        yield at("file", "is given, but no array is", "fill in a row of the Arrays worksheet")
 
 
 _NEEDED = {

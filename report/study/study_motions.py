@@ -87,7 +87,7 @@ def study_motions(sheet: StudySheet) -> StudyMotions:
 def _rows(sheet: StudySheet) -> list[dict[str, Any]]:
     study = sheet.project.study
     defaults = {e.name: e.default for e in SECTION["motions"].entries if not e.is_required}
-    # What the sheet Study says of all motions: a row of the sheet Motions has no columns for it.
+    # What the Study worksheet says of all motions: rows of Motions have no columns for it.
     common = {**defaults, "units": study.units, "dt_s": study.dt_s, "polarity": study.polarity}
     listed: Sequence[Mapping[str, Any]] = [row.model_dump() for row in sheet.project.motions]
     return [{**common, **row} for row in listed or _of_files(sheet)]
@@ -115,7 +115,7 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     if lost or not groups:
         wrong = f"'{name}' has no record" + (f" {lost[0]}-x" if lost else "")
         sheet.refuse(
-            [Finding.error(_FOLDER, wrong, "add it, or list the motions on the sheet Motions")]
+            [Finding.error(_FOLDER, wrong, "add it, or list the motions on the Motions worksheet")]
         )
     return list(groups.values())
 

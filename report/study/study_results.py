@@ -207,7 +207,7 @@ def _metered(what: str, items: Sequence[_T], progress: Callable[[str], None]) ->
 def _fit(plan: StudyPlan, analysis_m: Floats, ppa_g: float) -> Fit | str:
     study_input = plan.input
     if not plan.design_rule.has_value:
-        return "the motions are too few for a value from analysis"
+        return "there are too few motions for an analysis displacement"
     slopes, mus, levels = np.meshgrid(
         np.radians(study_input.slopes_deg), study_input.mus, study_input.intensities, indexing="ij"
     )

@@ -224,7 +224,7 @@ def _formula(results: StudyResults) -> Iterator[Row]:
         yield (
             building,
             "fitted, Δ_RHA",
-            f"value from analysis: {sentence(results, 'analysis')}, in m",
+            f"analysis displacement: {sentence(results, 'analysis')}, in m",
         )
         for number, value in enumerate(fit.coefficients):
             yield building, f"b{number}", value

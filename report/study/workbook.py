@@ -47,10 +47,10 @@ STUDY = block("study", "Study", "Study", Study, "Fill in, then run roofslip stud
     Entry("Rule set", "rule_set", "SEAOC PV1-2012",
           note="For the prescriptive displacement beside the curves."),
     Entry("Allowed displacement", "allowed_m", 24.0, Quantity.SIZE,
-          note="Gives the least friction and the largest slope. Blank for none."),
+          note="Used for the lowest friction and the steepest slope. Blank for none."),
     Entry("Folder of motions", "folder", "records", note="Every record in it is a motion; files"
           " that differ only in an ending -x, -y or -z are the components of one. Blank if the"
-          " sheet Motions lists them."),
+          " Motions worksheet lists them."),
     Entry("Record units", "units", "from file", note="If the files do not state them."),
     Entry("Time step", "dt_s", 0.01, "s", note="If the files do not state it."),
     Entry("Polarity", "polarity", "both", note="Signs in which each horizontal record is run."),
@@ -69,9 +69,9 @@ STUDY = block("study", "Study", "Study", Study, "Fill in, then run roofslip stud
           " the median intensity."),
     Entry("Samples", "samples", 200, note="Of the Latin hypercube, each under every motion."),
     Entry("Seed", "seed", 1, note="The same seed gives the same samples."),
-    Entry("Record-to-record dispersion", "record_beta", 0.4, note="Of the exported fragilities, in"
-          " place of that of the motions. Required for motions matched to one spectrum. Blank: that"
-          " of the motions."),
+    Entry("Record-to-record dispersion", "record_beta", 0.4, note="Of the exported fragilities,"
+          " instead of that of the motions. Required for motions matched to one spectrum. Blank:"
+          " that of the motions."),
     Entry("Record-to-record source", "record_source", "Hazard analysis, 2026",
           note="Required with the value."),
     Entry("Modeling dispersion", "modeling_beta", 0.25,
@@ -92,14 +92,14 @@ MATS = table("mats", "Mats", "Mats", Mat, "One row for each mat; optional.",
 ARRAYS = table("study_arrays", "Arrays", "Arrays", StudyArray,
     "Optional: one row for each fragility.",
     Entry("ID", "id", "A1", note="Short and unique."),
-    Entry("Mat", "mat", "EPDM pad", note="ID on the sheet Mats."),
+    Entry("Mat", "mat", "EPDM pad", note="ID on the Mats worksheet."),
     Entry("Slope", "slope_deg", 2.0, "deg", note="Of the roof."),
     Entry("Clearance", "clearance_m", 24.0, Quantity.SIZE, note="To the nearest object or edge."),
     Entry("Object", "reaches", "RTU-1", note="What it strikes, or the edge it reaches."),
 )  # fmt: skip
 
 MOTIONS = table("motions", "Motions", "Motions", StudyMotion,
-    "One row for each motion; leave blank if the sheet Study names a folder.",
+    "One row for each motion; leave blank if the Study worksheet names a folder.",
     Entry("ID", "id", "M1", note="Short and unique."),
     Entry("Horizontal record", "record", "records/m1-x.csv",
           note="A file beside this workbook, or file | channel."),
@@ -153,10 +153,10 @@ HAZARD_POINTS = table("hazard_points", "Hazard", "Hazard curve", HazardPoint,
 )  # fmt: skip
 
 FRICTION = table("friction_runs", "Friction runs", "Runs of the friction tests", StudyFrictionRun,
-    "Optional: as on the sheet Friction tests of a project, for each mat. With a hazard they take"
-    " the place of the tested values.",
+    "Optional: as on the Friction tests worksheet of a project, for each mat. With a hazard,"
+    " they replace the tested values.",
     *FRICTION_RUNS.entries,
-    Entry("Mat", "mat", "EPDM pad", note="ID on the sheet Mats."),
+    Entry("Mat", "mat", "EPDM pad", note="ID on the Mats worksheet."),
     may_be_absent=True,
 )  # fmt: skip
 

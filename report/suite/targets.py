@@ -41,7 +41,7 @@ class SuiteTargets:
     facts: Mapping[str, Any]  # for suite.json
 
     def source(self, seed: int) -> str:
-        """Return what the sheet Motions says of motions with these targets."""
+        """Return what the Motions worksheet says of motions with these targets."""
         basis = self.lines[0].removeprefix("target: ").partition(": ")[0]
         return f"{GENERATED}{seed}; {basis}"
 

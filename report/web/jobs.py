@@ -176,7 +176,7 @@ def read_plan(workbook: Path, job: Json) -> Json:
     drawn = read_dxf(next(_drawings(workbook)), LENGTHS.get(job["unit"]))
     unit = job["unit"] or drawn.unit
     if unit not in LENGTHS:
-        raise InputError("nobody says the unit of the drawing; choose it")
+        raise InputError("the drawing does not state its unit; select it")
     change = WorkbookChange(open_book(workbook))
     layers = {layer: LayerKind(kind) for layer, kind in json.loads(job["layers"]).items()}
     inputs = read_book(change.book).inputs

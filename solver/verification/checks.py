@@ -203,7 +203,9 @@ def physical_checks(record: Record) -> Iterator[Verified]:
 
 def _critical_friction() -> Iterator[Verified]:
     slope, time_s = math.radians(0.5), 5.0
-    source = "Paper, Physical Checks (4): slides at 0.999 tan(theta), no slip at 1.000 tan(theta)"
+    source = (
+        "Paper, Physical Checks (4): sliding with 0.999 tan(theta), no slip at 1.000 tan(theta)"
+    )
     below, just = 0.999 * math.tan(slope), math.tan(slope)
     travel_m = reference.free_slide_travel(slope, below, time_s, G) * math.cos(slope)
     for factor, mu, expected, tolerance in (

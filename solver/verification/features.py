@@ -59,7 +59,7 @@ FEATURES = (
     Feature("Response spectra", ("DV-6",)),
     Feature("Filters of records", ("DV-7",), only="Other processing: automatic tests only"),
     Feature(
-        "Prescriptive displacement, value from analysis",
+        "Prescriptive displacement, analysis displacement",
         ("DV-1", "DV-3"),
         only="Formulas; a package marks unconfirmed values",
     ),

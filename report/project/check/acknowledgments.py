@@ -1,4 +1,4 @@
-"""Warnings that the sheet Acknowledged answers with a reason."""
+"""Warnings that the Acknowledged worksheet answers with a reason."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ def link_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
         # A block of a row has one coefficient (`solver.sliding.row.BlockRow`).
         if "mu" in array and _by_speed(array):
             text = f"array is '{name}', which has high-velocity or static friction"
-            remedy = "leave both blank on the sheet Arrays, or delete this row"
+            remedy = "leave both blank on the Arrays worksheet, or delete this row"
             yield Finding.error(place, text, remedy)
     for place, text in column(inputs, ("links",), "friction"):
         home = arrays.get(inputs["links"][place.row].get("array", ""))

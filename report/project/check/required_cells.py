@@ -29,7 +29,7 @@ def _has_no_outline(row: InputRow, inputs: Inputs) -> bool:
 
 
 _OR_NONE = "give all four sides of the rectangle, or none"
-_OR_OUTLINE = "give all four sides of the rectangle, or an outline on the sheet Outlines"
+_OR_OUTLINE = "give all four sides of the rectangle, or an outline on the Outlines worksheet"
 _LAW = "give high-velocity friction and friction rate, or neither"
 _CODE = "give building code and year, or neither"
 _BOTH = "give latitude and longitude, or neither"

@@ -164,7 +164,8 @@ def _tabulated(
 
 
 def _or_study(field: str, fault: str, remedy: str, table: CoefficientTable) -> Finding:
-    out = f"or select the hazard basis '{HazardBasis.SITE_SPECIFIC}' and give its report"
+    basis = f"'{HazardBasis.SITE_SPECIFIC}' as basis of seismic parameters"
+    out = f"or select {basis} and enter its report"
     return _fault(field, fault, f"{remedy} ({table.clause}†), {out}")
 
 

@@ -26,8 +26,8 @@ class Finding:
     others: tuple[Place, ...] = ()  # further ones of its section
     text: str  # what was found; of a warning also what would do
     remedy: str = ""  # what would do, of an error
-    id: str = ""  # by which the sheet Acknowledged answers a warning; a limit has none
-    reason: str = ""  # from the sheet Acknowledged
+    id: str = ""  # by which the Acknowledged worksheet answers a warning; a limit has none
+    reason: str = ""  # from the Acknowledged worksheet
     cell: str = ""  # address of a cell that is no input; empty for that of the place
 
     @classmethod

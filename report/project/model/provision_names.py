@@ -6,7 +6,7 @@ from solver.rules.rulesets import ALLOWED
 
 
 def provision_name(key: str) -> str:
-    """Return the name of a provision in words, as on the sheet Provisions; without its unit."""
+    """Return the name of a provision in words, as on the Provisions worksheet; without its unit."""
     words = ALLOWED[key].meaning.partition(" [")[0]
     return words[:1].upper() + words[1:]
 

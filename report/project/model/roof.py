@@ -24,7 +24,7 @@ from report.project.model.placed import Placed
 DRAWING = "drawing"
 # The same with the number of modules.
 DRAWN_MODULES = f"{DRAWING}, modules too"
-# Name of the roof on the sheet Outlines.
+# Name of the roof on the Outlines worksheet.
 ROOF = "roof"
 
 

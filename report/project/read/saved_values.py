@@ -39,6 +39,6 @@ def not_calculated(book: OpenBook, used: Used, whole: Place) -> Iterator[Finding
     if read or any(scan.formulas for scan in book.scans.values()):
         place, cell = read[0] if read else (whole, "")
         which = listed((address for _, address in read), _MOST_LISTED) or "its computed cells"
-        text = f"the workbook {why}, and {which} may show former values: calculate it (F9; in"
+        text = f"the workbook {why}, and {which} may show previous values: calculate it (F9; in"
         text += " LibreOffice Ctrl+Shift+F9) and save it"
         yield replace(warning("calculation", place, text), cell=cell)

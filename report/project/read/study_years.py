@@ -56,6 +56,6 @@ class StudyYears(_Written):
     date: str
     study: str  # identity of its manifest
     program: str
-    hazard: Mapping[str, str | float | None]  # the cells of the sheet Hazard
+    hazard: Mapping[str, str | float | None]  # the cells of the Hazard worksheet
     life_years: float
     arrays: tuple[YearsOfArray, ...]

@@ -20,10 +20,10 @@ from solver.rules.hazard import NEAR_FAULT_S_1_G, HazardBasis
 from solver.rules.provisions import Neighbor
 from solver.rules.site_coefficients import F_A
 
-# Where a rule set applies the importance factor, as written on the sheet Provisions.
+# Where a rule set applies the importance factor, as written on the Provisions worksheet.
 IN_DISPLACEMENT, IN_SEPARATION = "displacement", "separation"
 
-# What a rule set prescribes in SDC A, B and C, as written on the sheet Provisions.
+# What a rule set prescribes in SDC A, B and C, as written on the Provisions worksheet.
 ONE_VALUE, BY_FORMULA = "one value", "the formula"
 
 # Defined names of columns, by table and column.
@@ -168,7 +168,7 @@ def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
     """
     column, length = FormulaColumn, decimals_format(unit)
     return (
-        column("over_parapet", "Height over the least parapet [in]",
+        column("over_parapet", "Height over the lowest parapet [in]",
                "0 or more qualifies an edge with parapet", _OVER_PARAPET,
                "0.0", 13, is_rare=True),
         column("neighbor", "Neighbor", "as the rule set counts it", _NEIGHBOR, width=29),

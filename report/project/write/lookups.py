@@ -130,7 +130,7 @@ def _write_neighbors(sheet: Worksheet, row: int) -> int:
     heads = ("Kind", "No parapet that qualifies", "Parapet that qualifies")
     kinds = [(kind.value, *neighbors) for kind, neighbors in KINDS.items()]
     row = _write_table(sheet, row, words, heads, kinds, {"kinds": "A:C"})
-    words = ("Neighbors", "Which of the separations on the sheet Provisions each has")
+    words = ("Neighbors", "Which of the separations on the Provisions worksheet each has")
     rows = [(neighbor.value, float(number)) for neighbor, number in SEPARATION_ROWS.items()]
     return _write_table(sheet, row, words, ("Neighbor", "Separation"), rows, {"neighbors": "A:B"})
 

@@ -23,8 +23,8 @@ _RULE_WIDTHS = (10, 16)
 _FIRST = len(_HEADS) + 1
 _FROM, _TO = map(get_column_letter, (_FIRST, _FIRST + 2 * len(RULE_SETS) - 1))
 _PROVISIONS_HINT = (
-    "Value and clause of each rule by rule set. Override a number on the sheet Options, within the"
-    " range allowed. This sheet has no input cells."
+    "Value and code section of each rule by rule set. Override a value on the Options worksheet,"
+    " within the allowed range. No input cells on this worksheet."
 )
 _MARKS = "† not confirmed against a published calculation: verify against the adopted code."
 
@@ -47,7 +47,7 @@ def write_rules(book: Workbook, tables: layout.Tables) -> None:
     style.put(sheet, 3, 1, _MARKS, color=style.GRAY, size=9, wrap=False)
     names: list[str] = []
     for rules in RULE_SETS.values():
-        names += [rules.name, "Clause"]
+        names += [rules.name, "Code section"]
     head = 5
     layout.name_range("rule_sets", sheet, f"${_FROM}${head}:${_TO}${head}")
     style.put_values(sheet, head, (*_HEADS, *names), are_heads=True)

@@ -19,7 +19,7 @@ from report.text.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS, Quantit
 from solver.rules.provisions import Neighbor
 
 _ANSWERS_HINT = (
-    "Computed from the other sheets; the numbers of the rule set are on the sheet Provisions."
+    "Computed from the other sheets; the numbers of the rule set are on the Provisions worksheet."
 )
 _HEADS = ("", "", "Value", "Separation", "", "", "Worst D/C", "", "Note")
 _SEPARATIONS = {

@@ -160,7 +160,8 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
          ("<Mats/2/ID>: ID is 'a', already used at <Mats/1/ID>",)),
         ({"mats": (Mat(id="A", tested="0.4, 0.5"),)},
          ("<Mats/1/Tested values>: tested values are '0.4, 0.5'",)),
-        ({"mats": (Mat(id="B", mu=0.4),)}, ("<Arrays/1/Mat>: mat 'a' is not on the sheet Mats",)),
+        ({"mats": (Mat(id="B", mu=0.4),)},
+         ("<Arrays/1/Mat>: mat 'a' is not on the Mats worksheet",)),
         ({"site_intensity": 1.0, "study_arrays": ()},
          ("<Study/Intensity at the site>: is given, but no array is",)),
         ({"site_intensity": 1.0, "intensity_beta": 0.2, "sampling": Sampling.ALL_COMBINATIONS},
@@ -245,7 +246,7 @@ def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
     assert text.endswith(" on it are read: show it, or clear what is not meant")
     shown = command(folder, "--dry-run")
     assert f"warning: {cell}: {text}" in shown.stderr
-    assert " MB on disk" in shown.output
+    assert " MB of disk space" in shown.output
     assert not (folder / "out").exists()
 
 
@@ -442,7 +443,7 @@ def test_a_file_is_read_to_the_roof(tmp_path):
         ({"hazard_points": curve((1e-320, 0.9), (1.0, 0.1))}, ["point 1 of the curve is 9.99"]),
         ({"hazard_points": curve((0.1, 0.9), (1.0, 1e-320))}, ["point 2 of the curve is 1 at 9"]),
         ({"friction_runs": (StudyFrictionRun(mat="Z", surface=Surface.DRY, number=1, mu=0.5),)},
-         ["mat 'Z' is not on the sheet Mats"]),
+         ["mat 'Z' is not on the Mats worksheet"]),
         ({"friction_runs": (StudyFrictionRun(mat="A", surface=Surface.DRY, number=1, mu=0.5),)},
          ["1 friction runs on 1 surfaces"]),
     ], 3),
