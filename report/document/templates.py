@@ -7,9 +7,8 @@ values. Owns no content.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import version
 from pathlib import Path
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
 
 
 _HERE = Path(__file__).resolve().parents[2]
+
 
 _FILTERS = (
     below_mm, capitalized, counted, dagger, data_uri, digits_down, digits_up, formula, general,
@@ -116,51 +116,3 @@ def _needs_a_line(numbers: Markup) -> bool:
     rows = (row for row in numbers.split("</div>") if 'class="small"' not in row)
     # Tags take no room.
     return any(len(row.striptags()) > SHORT_LETTERS for row in rows)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Part:
-    """A numbered part of the package; `parts` are those below it."""
-
-    id: str
-    number: str
-    title: str
-    parts: tuple[Part, ...] = field(default=())
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Section:
-    """A numbered section."""
-
-    id: str  # anchor
-    title: str  # heading
-    template: str  # path below the templates; it heads its subsections with `sub`
-    content: Mapping[str, Any]  # what the template prints, by name
-    charts: Mapping[str, str]  # SVG by name
-
-
-def section(
-    name: str, title: str, /, *, id: str = "", charts: Mapping[str, str] = {}, **content: Any
-) -> Section:
-    """Return the section of a template by its path without ending, whose last part is its id."""
-    id = id or name.rpartition("/")[2]
-    return Section(id=id, title=title, template=f"{name}.html", content=content, charts=charts)
-
-
-def filled(
-    folder: Path, sections: Sequence[Section], context: Mapping[str, Any]
-) -> Iterator[tuple[Part, Markup]]:
-    """Yield each section with its numbers, and its HTML; every template may print the context."""
-    for count, section in enumerate(sections, start=1):
-        part = Part(id=section.id, number=str(count), title=section.title)
-        below: list[Part] = []
-
-        # As defaults: called later, it would number below the last section of the loop.
-        def sub(title: str, part: Part = part, below: list[Part] = below) -> Part:
-            last = f"{len(below) + 1}"
-            below.append(Part(id=f"{part.id}-{last}", number=f"{part.number}.{last}", title=title))
-            return below[-1]
-
-        values = {"template": section.template, "drawings": section.charts, "sub": sub}
-        html = rendered(folder, "section.html", {**context, **section.content, **values})
-        yield replace(part, parts=tuple(below)), Markup(html)

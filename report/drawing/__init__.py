@@ -1,1 +1,1 @@
-"""The roof plan as a drawing for CAD. Read `report.drawing.items`."""
+"""The roof plan as a drawing for CAD. Read `report.drawing.plan_dxf`."""

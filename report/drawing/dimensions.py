@@ -10,7 +10,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from report.assessment.support.plan_gaps import PlanGap
-from report.drawing.items import TYPE_PT, Arrow, Layer, Look, Mark, width_in
+from report.drawing.layers import Layer
+from report.drawing.paper_items import TYPE_PT, Arrow, Look, Mark, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import BASE_IN, LINE_IN, Gap, Paper, PlanSheet
 from report.project.model.shapes import Point, Rectangle, between

@@ -15,7 +15,7 @@ from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.routes import NOT_PERMITTED
 from report.assessment.support.keep_clear import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.support.plan_gaps import parapet_note
-from report.drawing.items import Mark, width_in
+from report.drawing.paper_items import Mark, width_in
 from report.drawing.placer import Frame, centered
 from report.drawing.sheet import LINE_IN, PAD_IN, PlanSheet, PlanSize, text_size
 from report.project.model.choices import ObjectKind

@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 from report.assessment.assessment import Assessment
 from report.drawing.dimensions import draw_dimensions, draw_key, draw_numbers, key_on_paper
-from report.drawing.items import Layer, Mark, level, width_in
 from report.drawing.labels import (
     Schedule,
     alike_arrays,
@@ -25,6 +24,8 @@ from report.drawing.labels import (
     own_frame,
     reserve_name,
 )
+from report.drawing.layers import Layer
+from report.drawing.paper_items import Mark, level, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.plan import outlines
 from report.drawing.sheet import (

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from report.drawing.items import Point
+from report.project.model.shapes import Point
 
 _CLEAR_IN = 0.035  # between labels
 # Near rings are close, far ones wide: a leader of 3 in may as well be 0.2 in longer.

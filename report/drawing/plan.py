@@ -1,6 +1,6 @@
 """The roof plan as lines, texts and dimensions on layers, in the plan unit of the workbook.
 
-Pure data from an assessment, with no file format (`report.drawing.items`). Read `plan_drawing`.
+Pure data from an assessment, with no file format (`report.drawing.plan_dxf`). Read `plan_drawing`.
 """
 
 from __future__ import annotations
@@ -18,18 +18,11 @@ from report.assessment.support.envelopes import Outline, design_envelope, runs_e
 from report.assessment.support.keep_clear import keep_clear, keep_clear_m, keep_clear_mark
 from report.assessment.support.plan_gaps import PlanGap, parapet_note, plan_gaps
 from report.drawing.dimensions import alongside, gap_texts, lane_of
-from report.drawing.items import (
-    TYPE_PT,
-    WINDOW_IN,
-    Layer,
-    PlanDimension,
-    PlanDrawing,
-    PlanLine,
-    PlanText,
-    width_in,
-)
 from report.drawing.labels import along_strip
+from report.drawing.layers import Layer
+from report.drawing.paper_items import TYPE_PT, width_in
 from report.drawing.placer import Frame, Placer
+from report.drawing.plan_dxf import WINDOW_IN, PlanDimension, PlanDrawing, PlanLine, PlanText
 from report.drawing.sheet import LINE_IN, PAD_IN, Gap, Paper, Scale, round_scale, unit_format
 from report.project.model.choices import ObjectKind
 from report.project.model.roof import ROOF

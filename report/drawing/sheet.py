@@ -14,8 +14,9 @@ from itertools import product
 from report.assessment.assessment import Assessment
 from report.assessment.plan.bare_edges import EDGES
 from report.assessment.support.plan_gaps import PlanGap, plan_gaps
-from report.drawing import items
-from report.drawing.items import TYPE_PT, Item, Layer, Look, Mark, tick_text, width_in
+from report.drawing import paper_items
+from report.drawing.layers import Layer
+from report.drawing.paper_items import TYPE_PT, Item, Look, Mark, tick_text, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Rectangle, Shape, room, sides
@@ -86,24 +87,26 @@ class Paper:
 
     def shape(self, look: Look, points: Iterable[Point], name: str = "") -> None:
         """Draw an outline of the plan [m]."""
-        self.items.append(items.Outline(look=look, points=tuple(map(self.at, points)), name=name))
+        self.items.append(
+            paper_items.Outline(look=look, points=tuple(map(self.at, points)), name=name)
+        )
 
     def box(self, look: Look, frame: Frame) -> None:
         """Draw a rectangle."""
-        self.items.append(items.Outline(look=look, points=frame.corners))
+        self.items.append(paper_items.Outline(look=look, points=frame.corners))
 
     def lines(self, look: Look, *lines: Sequence[Point], name: str = "") -> None:
         """Draw lines as one thing."""
-        self.items.append(items.Lines(look=look, lines=tuple(map(tuple, lines)), name=name))
+        self.items.append(paper_items.Lines(look=look, lines=tuple(map(tuple, lines)), name=name))
 
     def circle(self, look: Look, center: Point, radius: float, name: str = "") -> None:
         """Draw a circle."""
-        self.items.append(items.Circle(look=look, center=center, radius=radius, name=name))
+        self.items.append(paper_items.Circle(look=look, center=center, radius=radius, name=name))
 
     def arrow(self, look: Look, middle: Point, turn_rad: float, half: float) -> None:
         """Draw an arrow about a point."""
         (x, y), dx, dy = middle, half * math.cos(turn_rad), half * math.sin(turn_rad)
-        self.items.append(items.Arrow(look=look, tail=(x - dx, y - dy), tip=(x + dx, y + dy)))
+        self.items.append(paper_items.Arrow(look=look, tail=(x - dx, y - dy), tip=(x + dx, y + dy)))
 
     def dimension(self, look: Look, a: Point, b: Point) -> None:
         """Draw a dimension line with a tick at each end."""
@@ -114,7 +117,7 @@ class Paper:
 
     def text(self, x: float, y: float, words: str, **look: bool) -> None:
         """Write a line from the start of its baseline, unless it is centered."""
-        self.items.append(items.Text(at=(x, y), words=words, **look))
+        self.items.append(paper_items.Text(at=(x, y), words=words, **look))
 
     def label(self, frame: Frame, lines: Sequence[str], *, first_bold: bool = False) -> None:
         """Write lines in the middle of a frame, one below the other."""

@@ -14,7 +14,7 @@ from dataclasses import replace
 import shapely
 
 from report.assessment.plan.bare_edges import EDGE_STRIP_M, bare_sides
-from report.drawing.items import Layer
+from report.drawing.layers import Layer
 from report.drawing_read.geometry import ROUNDED_M, box_of, boxed, own_axes
 from report.drawing_read.heights import ABOVE_ROOF, first_height, read_line
 from report.drawing_read.modules import GAP_M, MOST_TEXTS, SIDES_M, joined

@@ -21,7 +21,7 @@ from ezdxf.document import Drawing as Document
 from ezdxf.tools.text import plain_mtext
 from ezdxf.xclip import XClip
 
-from report.drawing.items import APPLICATION
+from report.drawing.plan_dxf import APPLICATION
 from report.drawing_read.areas import (
     HATCHES,
     boundaries,

@@ -19,7 +19,7 @@ from matplotlib.axes import Axes
 
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.routes import NOT_PERMITTED
-from report.drawing.items import TYPE_PT
+from report.drawing.paper_items import TYPE_PT
 from report.figures.base import (
     ACCENT,
     ACROSS,

@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from report.drawing.items import width_in
+from report.drawing.paper_items import width_in
 from report.figures.base import (
     ACCENT,
     ACROSS,

@@ -21,18 +21,9 @@ from matplotlib.patches import Circle as Round
 from matplotlib.text import Text as Words
 
 from report.assessment.design.friction import mu_words
-from report.drawing.items import (
-    TYPE_PT,
-    Arrow,
-    Circle,
-    Item,
-    Layer,
-    Lines,
-    Look,
-    Mark,
-    Outline,
-    drawn_slope_deg,
-)
+from report.drawing.drawn_slope import drawn_slope_deg
+from report.drawing.layers import Layer
+from report.drawing.paper_items import TYPE_PT, Arrow, Circle, Item, Lines, Look, Mark, Outline
 from report.drawing.sheet import Paper
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, Broken, canvas, style, svg_text
 from report.project.model.array import Array

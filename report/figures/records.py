@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from report.drawing.items import width_in
+from report.drawing.paper_items import width_in
 from report.figures.base import (
     GRAY,
     INK,

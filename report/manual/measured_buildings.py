@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from report.document.columns import plain, text, words
+from report.document.sections import Section, section
 from report.document.tables import Column, Table, compared_with, listed
-from report.document.templates import Section, section
 from report.manual import stability_maps
 from report.text.error_text import scientific, ten_digits
 from report.text.letter_case import capitalized

@@ -14,8 +14,8 @@ import numpy as np
 import pandas as pd
 
 from report.document.columns import text, words
+from report.document.sections import Section, section
 from report.document.tables import Column, Table, listed
-from report.document.templates import Section, section
 from report.figures.base import power_of_ten
 from report.manual import paper_figures, stability_maps
 from report.manual import work_figures as figures

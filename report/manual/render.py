@@ -18,8 +18,9 @@ from markupsafe import Markup
 
 import solver.building.roof
 from report.document.columns import centered, text, words
+from report.document.sections import Section, filled, section
 from report.document.tables import grouped
-from report.document.templates import Section, filled, rendered, section
+from report.document.templates import rendered
 from report.manual import precision
 from report.manual.measured_buildings import building, models
 from report.manual.precision import conditioning, convergence, curves, floor, links, stability, work

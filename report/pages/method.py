@@ -20,7 +20,7 @@ from report.assessment.design.clearances import ClearanceCheck
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import severity
 from report.document.tables import stamp
-from report.drawing.items import drawn_slope_deg
+from report.drawing.drawn_slope import drawn_slope_deg
 from report.pages.marks import prescriptive_key
 from report.pages.parts import PackageData, statistic
 from report.project.model.array import Array

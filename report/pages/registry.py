@@ -13,7 +13,7 @@ from typing import Any
 from report.assessment.assessment import Assessment
 from report.assessment.revision_changes import NO_FORMER, Changes
 from report.assessment.support.evidence import Evidence
-from report.document.templates import Part
+from report.document.sections import Part
 from report.pages import (
     accuracy,
     basis,

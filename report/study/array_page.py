@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from report.document.columns import text, words
+from report.document.sections import Section, section
 from report.document.tables import Column, listed
-from report.document.templates import Section, section
 from report.project.read.study_years import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import study_charts
 from report.study import years as rates

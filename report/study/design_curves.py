@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from report.document.columns import ColumnHead, centered, text, words
+from report.document.sections import Section, section
 from report.document.tables import Table, listed
-from report.document.templates import Section, section
 from report.pages.symbols import with_symbols
 from report.study import study_charts
 from report.study.page_parts import (

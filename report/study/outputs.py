@@ -9,7 +9,8 @@ from typing import Any
 
 from markupsafe import Markup
 
-from report.document.templates import Section, filled, rendered, section
+from report.document.sections import Section, filled, section
+from report.document.templates import rendered
 from report.project.read.study_years import YEARS
 from report.results.publish import publish
 from report.study.array_page import fragility, sheets, years, years_json

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from report.document.columns import text
+from report.document.sections import Section, section
 from report.document.tables import Table, listed
-from report.document.templates import Section, section
 from report.pages.symbols import with_symbols
 from report.study import study_charts
 from report.study.capacity_runs import FREQ_HZ

@@ -13,22 +13,13 @@ from typing import Any
 
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
-from report.drawing.items import (
-    TYPE_PT,
-    Arrow,
-    Circle,
-    Item,
-    Layer,
-    Look,
-    Mark,
-    Outline,
-    Point,
-    Text,
-)
+from report.drawing.layers import Layer
 from report.drawing.on_paper import plan_on_paper
+from report.drawing.paper_items import TYPE_PT, Arrow, Circle, Item, Look, Mark, Outline, Text
 from report.drawing.sheet import Paper, PlanSize, unit_format
 from report.pages.clearance_tables import NumberedGap
 from report.pages.marks import Marks
+from report.project.model.shapes import Point
 from report.text.unit_format import UnitFormat
 
 Cell = Mapping[str, str]

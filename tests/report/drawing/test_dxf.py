@@ -22,8 +22,9 @@ from fixtures.pages import page_of
 from fixtures.project_parts import FT, sides
 from report.assessment.support.envelopes import design_envelope
 from report.assessment.support.plan_gaps import plan_gaps
-from report.drawing.items import APPLICATION, Layer, write_dxf
+from report.drawing.layers import Layer
 from report.drawing.plan import gap_cells, plan_drawing, title_block
+from report.drawing.plan_dxf import APPLICATION, write_dxf
 from report.project.model.choices import UnitsFirst
 
 
@@ -70,7 +71,7 @@ def test_texts_name_what_is_drawn_and_the_same_plan_gives_the_same_bytes(done):
 @pytest.mark.nightly
 def test_every_process_writes_the_same_bytes():
     code = (
-        "from report.drawing.items import write_dxf; from report.drawing.items import *; "
+        "from report.drawing.plan_dxf import write_dxf; from report.drawing.plan_dxf import *; "
         "gap = PlanDimension(layer=Layer.CLEARANCE, name='A1 to N', ends=((0, 0), (4, 0)), "
         "words='1: 48.0 in', at=(2, 3)); drawn = PlanDrawing("
         "is_feet=True, height=1.0, lines=(), texts=(), dimensions=(gap,), title=(), "

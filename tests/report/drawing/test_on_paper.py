@@ -12,8 +12,9 @@ from fixtures.pages import page_of
 from fixtures.plan_pictures import SMALL
 from fixtures.project_parts import HEAD, sides
 from fixtures.projects import FOOT
-from report.drawing.items import TYPE_PT, Circle, Layer, Lines, Mark, Outline, Text, width_in
+from report.drawing.layers import Layer
 from report.drawing.on_paper import plan_on_paper, printed_plan
+from report.drawing.paper_items import TYPE_PT, Circle, Lines, Mark, Outline, Text, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import PlanSize
 from report.figures import plan as figures

@@ -6,7 +6,7 @@ import pytest
 
 from fixtures import pages
 from fixtures.verify_run import only
-from report.document.templates import section
+from report.document.sections import section
 from report.manual.render import errors_by_version
 from report.text.validation import VALIDATION
 from solver.verification.design_checks import design_checks

@@ -11,7 +11,7 @@ from fixtures.project_parts import LB
 from report.assessment.checks.friction_evidence import of_tests
 from report.assessment.design.tested_friction import tested as series_of
 from report.assessment.design.verdict import Verdict
-from report.drawing.items import drawn_slope_deg
+from report.drawing.drawn_slope import drawn_slope_deg
 from report.figures.charts import friction_by_velocity
 from report.figures.plan import array_section
 from solver.friction_tests import fit_law

@@ -14,7 +14,7 @@ from fixtures.libreoffice import converted
 from fixtures.marks import by_day
 from fixtures.workbooks import arrays, blank, formula_cells, make, project, type_into
 from projects.example.make import project as example
-from report.drawing.items import TYPE_PT, width_in
+from report.drawing.paper_items import TYPE_PT, width_in
 from report.project.model.choices import UnitsFirst
 from report.project.model.provision_names import provision_name
 from report.project.read.read import read

@@ -1,8 +1,6 @@
-"""What a plan consists of: for CAD on layers, written as DXF; on paper items, painted in order.
+"""The roof plan as a DXF file: lines, texts and dimensions on layers.
 
-The same plan gives the same bytes of DXF. On paper positions are in inches, y upward. How an item
-looks stands with each painter: of the package (`report.figures.plan`) and of the page
-(`report.web.plan`).
+The same plan gives the same bytes. Read `write_dxf`.
 """
 
 from __future__ import annotations
@@ -10,50 +8,14 @@ from __future__ import annotations
 import io
 import math
 from dataclasses import dataclass
-from enum import Enum
 from typing import TYPE_CHECKING
 
-from report.project.model.array import Array
-from report.typeset.letters import width_em
+from report.drawing.layers import Layer
+from report.project.model.shapes import Point
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.layouts.layout import Modelspace
-
-
-Point = tuple[float, float]
-
-
-class Layer(Enum):
-    """A layer: its name, its color by AutoCAD's index, and whether its lines are dashed.
-
-    Names in the form of the U.S. National CAD Standard: discipline S, structural, because the plan
-    is of seismic displacement and not of the solar installation, then groups of four letters. Not
-    every group is one of the standard's list.
-    """
-
-    OUTLINE = ("S-ROOF-OTLN", 8, False)
-    EDGE = ("S-ROOF-EDGE", 7, True)
-    PARAPET = ("S-ROOF-PRPT", 7, False)
-    BARE_EDGE = ("S-ROOF-EDGE-BARE", 1, True)
-    ARRAY = ("S-SOLR-ARRY", 5, False)
-    UNLIKE = ("S-SOLR-ARRY-UNLK", 9, False)
-    OBJECT = ("S-EQPM", 8, False)
-    CLEARANCE = ("S-ANNO-DIMS", 3, False)
-    CLEARANCE_NG = ("S-ANNO-DIMS-FAIL", 1, False)
-    CLEARANCE_NONE = ("S-ANNO-DIMS-NONE", 2, False)
-    DESIGN = ("S-SOLR-ENVL-DSGN", 6, True)
-    RUNS = ("S-SOLR-ENVL-RUNS", 30, False)
-    NOTES = ("S-ANNO-NOTE", 7, False)
-    NORTH = ("S-ANNO-NRTH", 7, False)
-    SCHEDULE = ("S-ANNO-SCHD", 7, False)
-    TITLE = ("S-ANNO-TTLB", 7, False)
-    WINDOW = ("S-ANNO-NPLT", 8, False)  # of the plan in its layout; not plotted
-
-    @property
-    def title(self) -> str:
-        """Its name."""
-        return self.value[0]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -112,15 +74,29 @@ class PlanDrawing:
 # Application whose extended data names what an outline is of.
 APPLICATION = "ROOFSLIP"
 
+
 _VERSION = "R2010"
+
+
 _DASHED = "DASHED"
+
+
 _FONT = "arial.ttf"
+
+
 _STYLE = "ROOFSLIP"  # of dimensions
+
+
 _LEGIBLE = 7  # black on white, white on black
+
 
 # Size of the layout [in], ANSI D and ISO A1, its margin, and the height of the title block.
 _SHEETS = {True: (34.0, 22.0), False: (33.1, 23.4)}
+
+
 _MARGIN_IN, _TITLE_IN = 0.75, 1.0
+
+
 # The window on the plan, which fits into both.
 WINDOW_IN = (33.1 - 2.0 * _MARGIN_IN, 22.0 - 2.0 * _MARGIN_IN - _TITLE_IN)
 
@@ -268,108 +244,3 @@ def _coded(words: str) -> str:
 def _plain(words: str) -> str:
     # A value of DXF is one line of the file.
     return " ".join(words.split())
-
-
-class Mark(Enum):
-    """What is on paper beside the plan itself."""
-
-    FAILED = "area of a gap that is not satisfied"
-    LEADER = "from what is named to its label"
-    FRAME = "around a label"
-    BACKING = "behind a label"
-    NUMBER = "around the number of a clearance"
-    NUMBER_SAMPLE = "the same in the legend"
-    NG = "behind the word NG"
-    SLOPE = "downslope direction"
-    SLOPE_SAMPLE = "the same in the legend, thinner"
-    TICK = "coordinate"
-    DARK = "dark half of the scale bar"
-    LIGHT = "light half of the scale bar"
-
-
-Look = Layer | Mark
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Outline:
-    """A closed polygon, and what it is of."""
-
-    look: Look
-    points: tuple[Point, ...]
-    name: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Lines:
-    """Lines that are one thing, such as a dimension line with its ticks, and what they are of."""
-
-    look: Look
-    lines: tuple[tuple[Point, ...], ...]
-    name: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Arrow:
-    """An arrow."""
-
-    look: Look
-    tail: Point
-    tip: Point
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Circle:
-    """A circle, and what it is of."""
-
-    look: Look
-    center: Point
-    radius: float
-    name: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Text:
-    """A line of text."""
-
-    at: Point  # start of its baseline; where it is centered, the middle of its baseline
-    words: str
-    is_centered: bool = False
-    is_bold: bool = False
-    is_upright: bool = False  # whether it reads from below
-    is_light: bool = False  # whether on a dark ground
-
-
-Item = Outline | Lines | Arrow | Circle | Text
-
-
-def level(item: Item) -> int:
-    """Return what an item lies over: shapes, then lines and labels, words, and last the word NG."""
-    if isinstance(item, Text):
-        return 4 if item.is_light else 2
-    if item.look is Mark.NG:
-        return 3
-    is_line = isinstance(item, Lines)
-    return 1 if is_line or item.look in (Mark.FRAME, Mark.BACKING, Mark.NUMBER) else 0
-
-
-TYPE_PT = 9.0  # the renderer clips letters of 8.5 pt
-
-
-def width_in(text: str, *, is_bold: bool = False) -> float:
-    """Return the width of a text [in] at `TYPE_PT`."""
-    return width_em(text, is_bold=is_bold) * TYPE_PT / 72.0
-
-
-def tick_text(name: str) -> str:
-    """Return a name truncated to the width of a tick label."""
-    return name if len(name) <= 14 else f"{name[:13]}…"
-
-
-# Flatter roofs are drawn at the first slope, so that it shows; steeper ones at the second.
-DRAWN_DEG = (8.0, 15.0)
-
-
-def drawn_slope_deg(array: Array) -> float:
-    """Return the slope at which the roof is drawn [deg]."""
-    least, most = DRAWN_DEG
-    return min(max(math.degrees(array.slope_rad), least), most)

@@ -1,0 +1,16 @@
+"""The slope at which a section through an array is drawn, so that it shows."""
+
+from __future__ import annotations
+
+import math
+
+from report.project.model.array import Array
+
+# Flatter roofs are drawn at the first slope, so that it shows; steeper ones at the second.
+DRAWN_DEG = (8.0, 15.0)
+
+
+def drawn_slope_deg(array: Array) -> float:
+    """Return the slope at which the roof is drawn [deg]."""
+    least, most = DRAWN_DEG
+    return min(max(math.degrees(array.slope_rad), least), most)
