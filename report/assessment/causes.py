@@ -6,20 +6,16 @@ Draws no verdict: the checks do (`report.assessment.checks`). Read `failed`, the
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
+from report.assessment.assessment import Assessment
 from report.assessment.checks.alike import alike
 from report.assessment.checks.check import MOTIONS_ID, Check, by_ratio
 from report.assessment.checks.sentence import words
+from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.verdict import Verdict
 from report.text.counts import numbered
 from report.text.grouping import grouped_by
 from report.text.units import nan_is_worst
-
-if TYPE_CHECKING:
-    from report.assessment.assessment import Assessment
-    from report.assessment.design.arrays import ArrayAssessment
-
 
 # Checks that a sentence names.
 MOST_NAMED = 4

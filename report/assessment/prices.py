@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
+from report.assessment.assessment import Assessment
 from report.assessment.causes import came_to, governing_words
 from report.assessment.checks.check import LOWERING, VELOCITY_ROW
 from report.assessment.design.clearances import by_id
@@ -21,10 +21,6 @@ from report.project.model import ProjectInput
 from report.text.letter_case import capitalized
 from report.text.names import ranged
 from report.text.units import Quantity, nan_is_worst, no_less, pair
-
-if TYPE_CHECKING:
-    from report.assessment.assessment import Assessment
-
 
 _REVIEW, _RULE_SET = "peer_review", "rule_set"
 

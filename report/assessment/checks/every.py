@@ -25,6 +25,7 @@ from report.assessment.checks import (
 )
 from report.assessment.checks.check import MOTIONS_ID, VELOCITY_ROW, Check
 from report.assessment.design.routes import Route, RouteLimits, interconnection_n
+from report.motions.prepare import Shaking
 from report.project.model import ProjectInput
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence
@@ -32,7 +33,6 @@ from solver.rules.provisions import RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.assessment import Assessment
-    from report.motions.prepare import Shaking
 
 
 # Of a check on the analysis where nothing follows from it.

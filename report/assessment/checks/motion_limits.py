@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from operator import attrgetter
-from typing import TYPE_CHECKING
 
 from report.assessment.checks.check import MOTIONS_ID, Check
 from report.assessment.checks.rule_limits import of_limit
 from report.assessment.design.words import STAYS
 from report.motions.history import PreparedMotion
+from report.motions.prepare import Shaking
 from report.project.model.place import Place
 from report.text.command_line import quoted
 from report.text.grouping import grouped_by, ids_by
@@ -19,10 +19,6 @@ from report.text.names import ranged
 from report.text.units import digits_up
 from solver.records.acceptance import FULL_RATIO, Acceptance
 from solver.rules.limit import PROGRAM, Consequence, Limit, Measure
-
-if TYPE_CHECKING:
-    from report.motions.prepare import Shaking
-
 
 # Final displacement [m] and velocity [m/s] above which it is not accepted: in no code. A fault may
 # move the ground by more, and no ground keeps moving.

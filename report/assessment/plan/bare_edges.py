@@ -68,6 +68,7 @@ def _line(start: Point, end: Point) -> Shape:
 
 def _bare(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tuple[Point, Point]]:
     """Yield the parts of a side along which no strip lies; none shorter than `EDGE_STRIP_M`."""
+    # It takes 0.09 s to load, which a check of a plan without the outline of a roof does not need.
     from shapely import LineString
     from shapely.ops import substring
 

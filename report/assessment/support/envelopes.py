@@ -84,7 +84,7 @@ def _moved(points: Sequence[Point], moves: Sequence[Point]) -> Outline:
 
 def hull(points: Iterable[Point]) -> Outline:
     """Return the convex hull of points, from the leftmost one on."""
-    import shapely
+    import shapely  # 0.09 s to load: only where a plan is drawn
 
     corners = shapely.get_coordinates(shapely.convex_hull(shapely.linestrings(list(points))))
     around = ring([(x, y) for x, y in corners.tolist()])

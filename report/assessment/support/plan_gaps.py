@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from report.assessment.assessment import Assessment
 from report.assessment.design.clearances import ClearanceCheck
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
@@ -13,9 +13,6 @@ from report.project.model.choices import ObjectKind
 from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Shape, closest
 from solver.rules.provisions import Neighbor
-
-if TYPE_CHECKING:
-    from report.assessment.assessment import Assessment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,6 +1,7 @@
 """Shapes in roof plan: rectangles and polygons, the gap between two, and the points where it is.
 
-Knows no sheet and no workbook. Two rectangles take closed forms and load no library.
+Knows no sheet and no workbook. Two rectangles take closed forms: shapely, which takes 0.09 s to
+load, is imported where another shape asks for it.
 """
 
 from __future__ import annotations
