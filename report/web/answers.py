@@ -138,7 +138,7 @@ def _worst(assessment: Assessment, is_provisional: bool) -> Mapping[str, Any] | 
     if is_provisional:
         gap = assessment.governing_gap()
         between = " to ".join(gap.between) if gap else ""
-        return _of_ratio(f"Clearance {between}", gap.demand_capacity) if gap else None
+        return _headline(f"Clearance {between}", gap.demand_capacity) if gap else None
     satisfied = largest(assessment)
     clearances = [check for check in satisfied if check.id == "clearance"]
     checks = failed(assessment) or clearances or by_ratio(satisfied)
@@ -146,12 +146,12 @@ def _worst(assessment: Assessment, is_provisional: bool) -> Mapping[str, Any] | 
         return None
     first, more = checks[0], len(failed(assessment)) - 1
     others = f", and {numbered(more, 'more check')} NG" if more > 0 else ""
-    return _of_ratio(f"{first.title} {first.subject}".rstrip() + others, first.ratio)
+    return _headline(f"{first.title} {first.subject}".rstrip() + others, first.ratio)
 
 
-def _of_ratio(text: str, value: float) -> Mapping[str, Any]:
-    said = "" if math.isnan(value) else ratio(value)
-    return {"text": text, "ratio": finite(value), "ratio_text": said}
+def _headline(text: str, value: float) -> Mapping[str, Any]:
+    ratio_text = "" if math.isnan(value) else ratio(value)
+    return {"text": text, "ratio": finite(value), "ratio_text": ratio_text}
 
 
 def _next_step(assessment: Assessment, reasons: Sequence[Mapping[str, Any]]) -> str:

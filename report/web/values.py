@@ -60,7 +60,7 @@ def _given(sheet: Sheet, section: str, fields: tuple[str, ...]) -> Iterator[tupl
                 yield Place(section, index, field), row[field]
 
 
-def _of(values: Values, control: str, target: object, none: float) -> float:
+def _value_of(values: Values, control: str, target: object, none: float) -> float:
     """Return the value of a control for an array or a clearance: its own, or that of all."""
     return float(values.get(f"{control}@{target}", values.get(control, none)))
 
@@ -69,11 +69,11 @@ def _friction(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
     """Multiply the coefficients: a law by velocity as a whole, and those of linked blocks."""
     rows = sheet.inputs["arrays"]
     for place, mu in _given(sheet, "arrays", MUS):
-        factor = _of(values, "friction", rows[place.row]["id"], 1.0)
+        factor = _value_of(values, "friction", rows[place.row]["id"], 1.0)
         if factor != 1.0:
             yield place, round(mu * factor, _MU_DIGITS)
     for index, row in enumerate(sheet.inputs["links"]):
-        factor = _of(values, "friction", row["array"], 1.0)
+        factor = _value_of(values, "friction", row["array"], 1.0)
         if factor != 1.0:
             mus = (round(mu * factor, _MU_DIGITS) for mu in coefficients(row["friction"]))
             yield Place("links", index, "friction"), ", ".join(map(str, mus))
@@ -81,7 +81,7 @@ def _friction(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
 
 def _slope(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
     for index, row in enumerate(sheet.inputs["arrays"]):
-        unit, turn_deg = row["slope_unit"], _of(values, "slope", row["id"], 0.0)
+        unit, turn_deg = row["slope_unit"], _value_of(values, "slope", row["id"], 0.0)
         if not turn_deg:
             continue
         # As in the cell no slope is less than 0.

@@ -7,7 +7,7 @@ import { frame, linesAcross, linesUp, pointerIn, scale, setSize, textsAcross, te
 
 const LEFT = 46;
 const RIGHT = 8;
-const HEADS = [20, 38]; // heights of a heading of one line and of two, as in views.css
+const HEAD = 20; // height of a heading, as in views.css
 const AXIS = 22;
 const ROOM = 0.06; // of the range of the values, above and below
 let made = 0;
@@ -22,17 +22,17 @@ export function createPanels(panels, { seconds, slips }) {
   const drawn = panels.map((panel) => createPanel(panel));
   const axis = svg("svg", { class: "panel-axis", "aria-hidden": true });
   const element = html("div", { class: "panels" }, drawn.map((panel) => panel.element), axis);
-  let size = { width: 0, height: 0, head: HEADS[0] };
+  let size = { width: 0, height: 0 };
   let span = [0, seconds];
   let x = scale(span, [LEFT, LEFT + 1]);
   let now = 0;
   let picked = null;
 
   function draw() {
-    const { width, height, head } = size;
+    const { width, height } = size;
     if (width === 0) return;
     x = scale(span, [LEFT, width - RIGHT]);
-    const tall = Math.floor((height - AXIS) / drawn.length) - head;
+    const tall = Math.floor((height - AXIS) / drawn.length) - HEAD;
     const times = ticks(...span, width / 90);
     for (const panel of drawn) panel.draw({ width, tall, span, x, times, slips });
     drawAxis(axis, width, x, times);
@@ -45,10 +45,9 @@ export function createPanels(panels, { seconds, slips }) {
 
   return {
     element,
-    /** Fill a width and height; where the width is too small, the headings have two lines. */
-    resize(width, height, { isNarrow = false } = {}) {
-      size = { width, height, head: HEADS[Number(isNarrow)] };
-      element.classList.toggle("is-narrow", isNarrow);
+    /** Fill a width and height. */
+    resize(width, height) {
+      size = { width, height };
       draw();
     },
     /** Show a span of time. */
@@ -62,8 +61,6 @@ export function createPanels(panels, { seconds, slips }) {
       picked = slip;
       mark();
     },
-    /** Return the values at a time in words. */
-    words: (time) => drawn.map((panel) => panel.words(time)).join("; "),
     /** Return the time under a pointer. */
     timeAt: (event) => within(x.inverse(pointerIn(element, event)[0]), ...span),
   };
@@ -120,7 +117,6 @@ function createPanel({ title, units, series, least, most, over }) {
         values[k].textContent = measured(valueAt(one, time), units[0]);
       });
     },
-    words: (time) => `${title}: ${series.map((one) => `${one.name} ${measured(valueAt(one, time), units[0])}`).join(", ")}`,
   };
 }
 
