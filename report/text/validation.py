@@ -8,7 +8,7 @@ NOT_VALIDATED = (
 
 VALIDATION = (
     f"{NOT_VALIDATED} The checks of the verification manual show that the equations are solved "
-    "correctly. They do not show how well friction between a ballasted array and a roof membrane "
-    "follows them."
+    "correctly. They do not show how well these equations represent the friction between a "
+    "ballasted array and a roof membrane."
 )
 """The same, with what remains unknown."""

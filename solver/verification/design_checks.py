@@ -111,7 +111,7 @@ def _statistics() -> Iterator[Verified]:
     ):
         found_m = analysis_value(RULE_SETS["ASCE 7-16"], peaks_m).value_m
         name = f"Peaks of 1 m to {len(peaks_m)} m, {words}"
-        yield Verified("DV-3", "By hand", "Value from analysis", "m", name, expected_m, found_m)
+        yield Verified("DV-3", "By hand", "Analysis displacement", "m", name, expected_m, found_m)
 
 
 def _uplift() -> Verified:

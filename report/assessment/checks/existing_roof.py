@@ -20,8 +20,8 @@ from report.text.units import Quantity, pair
 
 _NOISE = 1e-9  # a weight in other units is no more than itself
 _REMEDY = (
-    "Have the engineer of the existing building evaluate it with the weight added, and enter who"
-    " did on the Site worksheet."
+    "Have the engineer of the existing building evaluate it with the added weight, and enter"
+    " this evaluation on the Site worksheet."
 )
 
 
