@@ -55,13 +55,16 @@ def library(name: str) -> str | None:
     """Return the path or name of a library, by its name without prefix, number and ending."""
     if sys.platform == "win32":
         return next((str(path) for path in _shipped().glob(f"bin/{name}*.dll")), None)
-    from ctypes.util import find_library
+    from ctypes.util import find_library  # of `doctor` alone: `--help` imports this module
 
     return find_library(name)
 
 
 def load_renderer() -> None:
-    """Import the renderer; on Windows with the libraries of the package, whatever else is there."""
+    """Import the renderer; on Windows with the libraries of the package, whatever else is there.
+
+    Here, and at the top of no module: what it loads depends on what is set before.
+    """
     if sys.platform == "win32":
         folder, usual = str(_shipped() / "bin"), os.environ["PATH"]
         os.environ["WEASYPRINT_DLL_DIRECTORIES"] = folder  # where they find each other
@@ -77,17 +80,17 @@ def load_renderer() -> None:
 
 def has_font_on_windows(letter: str) -> bool:
     """Whether fontconfig knows a font with a letter; Windows has no `fc-list` to ask."""
-    from cffi import FFI
+    from cffi import FFI  # installed with the renderer, and asked on Windows alone
 
     load_renderer()
     ffi = FFI()
     ffi.cdef(_FONTCONFIG)
     fontconfig = ffi.dlopen(library("fontconfig"))
-    wanted = fontconfig.FcNameParse(f":charset={ord(letter):x}".encode())
-    return bool(fontconfig.FcFontList(ffi.NULL, wanted, fontconfig.FcObjectSetCreate()).count)
+    pattern = fontconfig.FcNameParse(f":charset={ord(letter):x}".encode())
+    return bool(fontconfig.FcFontList(ffi.NULL, pattern, fontconfig.FcObjectSetCreate()).count)
 
 
 def _shipped() -> Path:
-    import gstreamer_libs
+    import gstreamer_libs  # a package of Windows
 
     return Path(gstreamer_libs.__file__).parent

@@ -1,6 +1,7 @@
 """What was appended to a package: what pyHanko says of its signatures, and whether it is no more.
 
-Needs the optional extra `sign`. Not whether a certificate is trusted: a PDF reader knows whom its
+Needs the optional extra `sign`: pyHanko is imported where it is used, as packages are verified
+without it too. Not whether a certificate is trusted: a PDF reader knows whom its
 user trusts. Read `appended`.
 
 Signs a package in the field over its seal box: PAdES baseline B-B, or B-T with a time stamp.
