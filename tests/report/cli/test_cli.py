@@ -165,7 +165,9 @@ def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_p
     assert words.index("Changes since revision 1") < words.index("2 Comparison with the")
     assert "Friction coefficient" in words
     assert "of another project" not in told
-    assert "--since is of another project: 99-1, Elsewhere; check that it is" in of_another
+    assert (
+        "the --since file is from another project: 99-1, Elsewhere; check that it is" in of_another
+    )
 
 
 VERDICT = "\x1b[31m\x1b[1mNG\x1b[0m"

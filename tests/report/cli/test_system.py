@@ -277,7 +277,7 @@ def test_a_name_that_is_too_long_is_an_input_error(arguments, tmp_path, monkeypa
 def test_too_long_names_are_refused_before_the_run_odd_letters_and_long_values_shown(tmp_path):
     outcome = package(tmp_path / LONG, False, quiet=True, as_json=False)
     (problem,) = outcome.errors
-    assert f"the system refuses it ({TOO_LONG})" in problem
+    assert f"the operating system denied access ({TOO_LONG})" in problem
     told = errors_of("report", make(tmp_path), "--out", tmp_path / LONG)
     assert TOO_LONG in told
     assert "running" not in told

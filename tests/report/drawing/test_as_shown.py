@@ -119,7 +119,7 @@ def test_closed_lines_in_a_layout_are_said_to_be_there(tmp_path):
     [
         (21, "states US survey feet; give --units ft"),
         (10, "states yards; give --units ft, if that is what it is drawn in, or scale it in CAD"),
-        (0, "states no unit; add --units with one of in, ft, mm, cm, m"),
+        (0, "states no unit; use --units with one of in, ft, mm, cm, m"),
     ],
 )  # fmt: skip
 def test_a_unit_that_no_roof_is_drawn_in_is_named(tmp_path, code, said):

@@ -110,7 +110,10 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     ran(*words, "--replace")
     path.write_text("x,y,blocks\n12.192,12.192,300\n18.288,14.630,200\n")  # in m
     refused = ran(*words, "--replace", exit_code=2)
-    assert "no block of the map is within an array of the plan; give --units of the map" in refused
+    assert (
+        "no ballast block of the map is inside an array on the plan; give --units of the map"
+        in refused
+    )
     assert "A1: 500 blocks, 16000 lb" in ran(*words[:3], "m", *words[4:], "--replace")
 
 

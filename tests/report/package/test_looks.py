@@ -92,7 +92,7 @@ def test_plan_and_notes_begin_a_sheet_and_captions_and_equations_stay_whole(shee
     assert sum(text.endswith("Notes for the construction documents") for text in first) == 1
     assert any("Roof plan and schedule" in text for text in first)
     blocks = [block for sheet in sheets for block in sheet.blocks]
-    (caption,) = {block.sheet for block in blocks if block.text.startswith("To the scale stated")}
+    (caption,) = {block.sheet for block in blocks if block.text.startswith("To scale when printed")}
     assert any(is_drawing(block) for block in blocks if block.sheet == caption)
     for title in ("Design displacement", "Separations"):
         of = [b for b in blocks if b.kind in ("H1", "H2", "Figure")]

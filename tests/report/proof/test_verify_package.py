@@ -71,7 +71,7 @@ def after_record_changed(whole, given):
 def test_a_package_is_the_same_to_the_byte_unless_a_record_was_changed(whole, after_record_changed):
     """A process of its own wrote it; this one has laid out a package before."""
     told = commands.stdout_of("verify-package", whole / "out" / "calc-package.pdf")
-    assert "Same: the input in the package gives this package, to the byte." in told
+    assert "Same: the embedded input gives this package byte for byte." in told
     assert sorted(path.name for path in whole.iterdir()) == ["input.xlsx", "out", "records"]
     assert sorted(path.name for path in (whole / "out").glob("*.pdf")) == ["calc-package.pdf"]
     done = after_record_changed
@@ -89,7 +89,7 @@ def test_errors_of_the_version_that_made_a_package_are_named_first(few_sheets, g
     path = given(few_sheets, change)
     told = commands.output_of("verify-package", path, exit_code=4)
     head, *errors, answer, _, _ = told.splitlines()
-    assert head == "Errors of the version that made the package, which it may have:"
+    assert head == "Known errors of the version that created the package, which may affect it:"
     assert any("above 10 g were accepted. A record in cm/s²" in error for error in errors)
     assert answer.startswith("Not compared in full")
     path.with_name("given-again.pdf").unlink()

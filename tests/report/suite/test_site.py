@@ -103,7 +103,7 @@ def test_a_suite_goes_into_the_workbook_with_its_rows(tmp_path, quick):
     before = read(path).project.motions
     told = commands.stdout_of(*suite(tmp_path / "records" / "made", "--into", path))
     cells = address(path, "Motions/motion-01/ID:Source")
-    assert f"{path}: 1 row added to the sheet Motions: {cells}\n" in told
+    assert f"{path}: 1 row added to the Motions worksheet: {cells}\n" in told
     assert f"code pv1 from {cell_address('Site/Rule set')}" in told
     *standing, new = read(path).project.motions
     assert tuple(standing) == before
@@ -129,7 +129,7 @@ def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, qui
     commands.stdout_of(*suite(made, "--into", path))
     type_into(path, {"Motions/motion-01/Polarity": "as recorded"})
     told = commands.stdout_of(*suite(made, "--into", path, "--seed", 2), "--count", 2)
-    assert f"{path}: 1 row added to the sheet Motions, 1 renewed: Motions!" in told
+    assert f"{path}: 1 row added to the Motions worksheet, 1 renewed: Motions!" in told
     *_, first, second = read(path).project.motions
     assert (first.id, first.polarity, second.id) == ("motion-01", "as recorded", "motion-02")
     assert first.source == second.source
