@@ -29,7 +29,6 @@ NOT_SAID = {
     r"nobody": "name who",
     r"not given": "not entered, not provided, missing",
     r"former": "previous",
-    r"storey|centre|metre": "story, center, meter",
     r"parts? \d": "Section",
     r"slides at": "peak sliding velocity",
     r"by velocity": "velocity-dependent",

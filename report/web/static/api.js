@@ -67,7 +67,7 @@ export function createApi(announce, room) {
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
     readPlan: (files, fields) => open("/api/plan", { method: "POST", body: form(files, fields) }),
-    fillIn: (files, cells) => open("/api/cells", { method: "POST", body: form(files, { cells: JSON.stringify(cells) }) }),
+    fillCells: (files, cells) => open("/api/cells", { method: "POST", body: form(files, { cells: JSON.stringify(cells) }) }),
     blank: (units) => downloaded(`/api/blank?units=${units}`),
     filledWorkbook: () => downloaded("/api/plan"),
     addClearances: () => open("/api/clearances", about({})),

@@ -73,8 +73,8 @@ session.draws(onChange(["phase", "answer"], findTurns));
 part("back").addEventListener("click", () => showProject(state));
 part("new").addEventListener("click", () => startNew().catch(fail));
 part("edit").addEventListener("click", () => editTables().catch(fail));
-part("check").addEventListener("click", () => fillIn().catch(fail));
-part("save-filled").addEventListener("click", () => fillIn().then(saveFilled).catch(fail));
+part("check").addEventListener("click", () => fillCells().catch(fail));
+part("save-filled").addEventListener("click", () => fillCells().then(saveFilled).catch(fail));
 part("example").addEventListener("click", () => opening(api.example, { words: "Opening the example …" }));
 part("add-clearances").addEventListener("click", () => opening(api.addClearances, { valuesOf: () => state.values }));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => session.set({ [key]: target.value }));
@@ -141,7 +141,7 @@ async function editTables() {
 }
 
 // Check the workbook with what is typed in it.
-async function fillIn() {
+async function fillCells() {
   if (isEdited) {
     const before = typed;
     await opening(() => api.edit(before), { words: "Checking the workbook …" });
@@ -152,7 +152,7 @@ async function fillIn() {
   let next = null;
   await opening(
     async () => {
-      next = await api.fillIn(dropped, typed);
+      next = await api.fillCells(dropped, typed);
       return next;
     },
     { words: "Checking the workbook …" },
