@@ -94,6 +94,12 @@ def test_the_subjects_of_commits_fit_a_line(tracked):
     assert [subject for subject in said.splitlines() if len(subject) > 72] == []
 
 
+def test_files_of_tests_have_names_of_their_own():
+    """Of two with one name pytest refuses the second, and all others with it."""
+    names = [path.name for path in TESTS.rglob("test_*.py")]
+    assert [name for name in set(names) if names.count(name) > 1] == []
+
+
 def name_of(requirement):
     return re.match(r"[\w.-]+", requirement)[0]
 

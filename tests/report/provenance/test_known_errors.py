@@ -26,6 +26,26 @@ def test_each_names_its_effect_an_action_and_the_lines_of_the_change_log():
             assert LOG.count(f"\n- {change}") == 1, change
 
 
+DECIDES, OTHER = "Numbers, verdicts and refusals", "Words, pages and commands"
+
+
+def test_each_correction_of_a_number_a_verdict_or_a_refusal_is_a_known_error():
+    """Each line below Fixed stands under one of two heads: under the first, an entry names it."""
+    starts = [change for error in known_errors() for change in error.changes]
+    later = LOG.partition("\n## 0.1.0")[0]  # no version before it had the errors
+    fixed = re.findall(r"^### Fixed\n(.*?)(?=^###? |\Z)", later, re.MULTILINE | re.DOTALL)
+    assert len(fixed) == 3
+    for section in fixed:
+        above, *heads = re.split(r"^#### ", section, flags=re.MULTILINE)
+        assert above.strip() == "", f"is it below '{DECIDES}' or '{OTHER}'?"
+        for part in heads:
+            head, _, text = part.partition("\n")
+            assert head in (DECIDES, OTHER)
+            for line in re.findall(r"^- (.*)", text, re.MULTILINE):
+                is_listed = any(line.startswith(start) for start in starts)
+                assert is_listed == (head == DECIDES), line
+
+
 def test_what_they_need_are_places_of_results_json():
     """A place that is spelled in another way would be empty in every package."""
     document = schema()
