@@ -166,7 +166,7 @@ def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_p
     assert "Friction coefficient" in words
     assert "of another project" not in told
     assert (
-        "the --since file is from another project: 99-1, Elsewhere; check that it is" in of_another
+        "file is from another project: 99-1, Elsewhere; check that it is" in of_another
     )
 
 
