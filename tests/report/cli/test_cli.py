@@ -108,7 +108,7 @@ def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypa
     (tmp_path / "records" / "x3.csv").write_text("time_s,acceleration_g\n0,abc\n")
     told = errors_of("report", book)
     assert "x3.csv" in told
-    assert f"{out / 'calc-package.pdf'} is of an earlier run, " in told
+    assert f"{out / 'calc-package.pdf'} is from an earlier run (" in told
     assert [path.read_bytes() for path in out.iterdir()] == [b"older"]
 
 
@@ -165,9 +165,7 @@ def test_since_a_former_revision_the_terminal_counts_and_the_package_lists(tmp_p
     assert words.index("Changes since revision 1") < words.index("2 Comparison with the")
     assert "Friction coefficient" in words
     assert "of another project" not in told
-    assert (
-        "file is from another project: 99-1, Elsewhere; check that it is" in of_another
-    )
+    assert "file is from another project: 99-1, Elsewhere; check that it is" in of_another
 
 
 VERDICT = "\x1b[31m\x1b[1mNG\x1b[0m"

@@ -145,7 +145,7 @@ def test_a_project_with_an_error_names_the_files_of_its_earlier_run(tmp_path):
     (tmp_path / "out" / "plan.dxf").write_text("earlier")
     (tmp_path / "records" / "x.csv").write_text("abc")
     told = run("report", tmp_path, tmp_path).stderr.splitlines()
-    assert told[-1].startswith(f"{tmp_path / 'out' / 'plan.dxf'} is of an earlier run, 2")
+    assert told[-1].startswith(f"{tmp_path / 'out' / 'plan.dxf'} is from an earlier run (2")
 
 
 PLACES = "<Site/Seismic parameters covered>, <Options/Review covered>"
