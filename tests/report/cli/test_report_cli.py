@@ -128,10 +128,10 @@ def test_workbooks_of_one_folder_are_written_to_folders_of_their_own(tmp_path):
     assert f"{tmp_path / 'out'}: has the results of input.xlsx, not of b.xlsx;" in refused.stderr
     assert "--out" in refused.stderr
     assert (tmp_path / "out" / "results.json").read_bytes() == before
-    first = f"{tmp_path / 'out' / 'calc-package.pdf'} and 4 more are of an earlier run, "
+    first = f"{tmp_path / 'out' / 'calc-package.pdf'} and 4 more are from an earlier run ("
     for told in (refused, done):
         (line,) = (line for line in told.stderr.splitlines() if line.startswith(first))
-        assert line.endswith(", and not replaced")
+        assert line.endswith(") and were not replaced")
     packages = [line.split()[-1] for line in done.stdout.splitlines()[1:]]
     assert packages == [str(tmp_path / "out" / n / "calc-package.pdf") for n in ("input", "b")]
     assert all(Path(package).is_file() for package in packages)
