@@ -168,7 +168,7 @@ def unfloored():
 @pytest.mark.quick
 def test_the_error_is_said_by_its_model_and_none_of_a_block_that_lifts_off(unfloored):
     scene, _, page = unfloored
-    result = scene.governing.worst.governing.result
+    result = scene.assessment.governing.worst.governing.result
     assert 0.0 < result.error_m < 1e-6
     assert f"the error of this PRD is below {below_mm(result.error_m)} (a bound)" in page
     _, _, page = paged((*assessments.motions(3, seconds=4.0), projects.lifting(signs=(1,))))

@@ -11,7 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
-import report.assessment.assess
 from fixtures import project_parts, projects
 from fixtures.cells import cell
 from fixtures.marks import by_day
@@ -33,6 +32,7 @@ from report.assessment.plan.before_runs import pairs_before_runs
 from report.assessment.plan.missing_rows import missing_rows
 from report.assessment.plan.neighbors import direction_of
 from report.assessment.precheck import missing_clearances
+from report.cli import clearance_rows
 from report.cli.main import main
 from report.motions.prepare import prepare
 from report.project.model.choices import ClearanceSource, Direction, ObjectKind, UnitsFirst
@@ -157,7 +157,7 @@ def test_the_reach_of_the_runs_is_taken_and_named(tmp_path, monkeypatch, designs
         rows = [SimpleNamespace(id=name, permitted_m=m) for name, m in designs_m.items()]
         return SimpleNamespace(arrays=rows)
 
-    monkeypatch.setattr(report.assessment.assess, "assess", ran)
+    monkeypatch.setattr(clearance_rows, "assess", ran)
     make(tmp_path, **BARE)
     assert f"kept; reach {reach}, twice {basis}\n" in fill(tmp_path)
 

@@ -309,8 +309,8 @@ def test_values_that_changed_after_their_document_are_a_condition_until_they_are
     tests = {"friction_tests": assessments.TESTS, "friction_runs": [RUN]}
     given = on_record(site=site, **tests)
     for title, change, sheet, label, cell in (
-        ("seismic parameters", {"site": given["site"] | {"s_ds_g": 1.6}}, "Site", "Hazard",
-         "hazard"),
+        ("seismic parameters", {"site": given["site"] | {"s_ds_g": 1.6}}, "Site",
+         "Seismic parameters", "hazard"),
         ("friction report", {"friction_runs": [RUN | {"mu": 0.47}]}, "Friction tests",
          "Test report", "tests"),
     ):  # fmt: skip
