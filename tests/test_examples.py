@@ -118,6 +118,7 @@ LIMITS = {
     "index.md": ("160 MB",),
     "checked.md": ("1.6e-13", "1.67e-13", "1.9e-12", "1.9e-14", "5.9e-14", "5e-14"),
     "method.md": ("1e-6", "1e-4", "1e-10"),
+    "page-file.md": ("2.5 MB",),
     "roof-drawing.md": ("25 MB", "5 MB"),
     "studies.md": ("1e-4",),
     "motions.md": ("1e-5",),

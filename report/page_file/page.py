@@ -41,7 +41,7 @@ _SVG, _LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}hre
 _SVG_DATA = "data:image/svg+xml;base64,"
 
 
-class Section(NamedTuple):
+class FileSection(NamedTuple):
     """A section of the file."""
 
     id: str
@@ -148,7 +148,7 @@ def _shade(assessment: Assessment, array_id: str) -> str:
     return f"shade-{sum(is_beyond)}"
 
 
-def _sections(package: str, shades: Mapping[str, str]) -> list[Section]:
+def _sections(package: str, shades: Mapping[str, str]) -> list[FileSection]:
     """Return the sections of the file, for a screen."""
     tree = ElementTree.fromstring(package)
     numbered = [heading for heading in tree.iter() if heading.find("span[@class='no']") is not None]
@@ -165,7 +165,7 @@ def _sections(package: str, shades: Mapping[str, str]) -> list[Section]:
         if id in SECTIONS and section.get("class") != "contents":
             bodies.setdefault(id, []).append(_markup(section, numbers, shades))
     return [
-        Section(id, numbers[id], titles[id], Markup("".join(bodies[id])))
+        FileSection(id, numbers[id], titles[id], Markup("".join(bodies[id])))
         for id in SECTIONS
         if id in bodies
     ]

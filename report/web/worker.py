@@ -115,6 +115,7 @@ LONGEST_S = 900.0
 
 TYPES = {
     ".pdf": "application/pdf",
+    ".html": "text/html; charset=utf-8",
     ".xlsx": "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet",
     ".json": "application/json",
     ".dxf": "image/vnd.dxf",
