@@ -59,7 +59,7 @@ def test_serve_says_where_no_disk_has_room_for_its_folder():
     done = roofslip("serve", "--once", "--port", "0", preexec_fn=no_files)
     assert done.returncode == 2
     words = "serve: 1 problem found.\n  a file cannot be written or read (No "
-    assert done.stderr.startswith(words)
+    assert words in done.stderr
     assert "free disk space" in done.stderr
 
 
@@ -275,7 +275,7 @@ def test_a_name_that_is_too_long_is_an_input_error(arguments, tmp_path, monkeypa
 
 
 def test_too_long_names_are_refused_before_the_run_odd_letters_and_long_values_shown(tmp_path):
-    outcome = package(tmp_path / LONG, False, quiet=True, as_json=False)
+    outcome = package(tmp_path / LONG, False, quiet=True, as_json=False, has_page=False)
     (problem,) = outcome.errors
     assert f"the operating system denied access ({TOO_LONG})" in problem
     told = errors_of("report", make(tmp_path), "--out", tmp_path / LONG)

@@ -155,7 +155,7 @@ KINDS = {
     "layers that nobody knows": Kind(lambda: text_of(plain(layers=UNKNOWN)),
                                      "or --layer NAME=KIND for a layer", then=CHOSEN),
     "layers for the sheet": Kind(lambda: text_of(plain(layers=UNKNOWN)),
-                                 "give the layers on the sheet Layers", given=("--accept",),
+                                 "give the layers on the Layers worksheet", given=("--accept",),
                                  workbook=say_layers),
     "a layer that is not there": Kind(
         lambda: text_of(plain(layers=UNKNOWN)), r"did you mean '(X-1)'\?",

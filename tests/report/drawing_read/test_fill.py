@@ -186,7 +186,7 @@ def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
     sketch = Sketch()
     ring = sketch.ring("STRUCTURE", BOX_FT)
     output = run(sketch.saved(tmp_path), new(tmp_path), "--accept", exit_code=2)
-    assert "nothing to fill in: give the layers on the sheet Layers" in output
+    assert "nothing to fill in: give the layers on the Layers worksheet" in output
     listed = f"a closed line on a layer that is not in Layers: 1 on STRUCTURE ({ring.dxf.handle})"
     assert listed in output
 

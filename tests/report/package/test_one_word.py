@@ -210,7 +210,7 @@ def test_results_xlsx_shows_the_mark_and_keeps_the_number_as_terminal_and_page(d
     assert "‡: changed by an override or a departure" in lines
     assert any(line.startswith("condition: Override of the separation") for line in lines)
     shown = answer(done, is_provisional=False)
-    for table, columns in {"arrays": ["Design"], "clearances": ["Required", "D/C"]}.items():
+    for table, columns in {"arrays": ["Design Δ"], "clearances": ["Required", "D/C"]}.items():
         for cells in shown[table]["rows"]:
             row = dict(zip(shown[table]["heads"], cells, strict=True))
             assert all(row[column]["text"].endswith("‡") for column in columns)

@@ -132,7 +132,14 @@ def test_every_template_of_the_package_is_rendered_in_some_state():
         reached.add(name)
         parsed = Environment().parse((TEMPLATES / name).read_text(encoding="utf-8"))
         left |= {*meta.find_referenced_templates(parsed)} - {None} - reached
-    of_other_documents = {"page-file.html", "section.html", "study.html", "verification.html"}
+    of_other_documents = {
+        "page-file.html",
+        "permit.html",
+        "permit-plan.html",
+        "section.html",
+        "study.html",
+        "verification.html",
+    }
     assert reached == {path.name for path in TEMPLATES.glob("*.html")} - of_other_documents
 
 

@@ -173,7 +173,7 @@ def test_formulas_that_are_not_calculated_since_are_named(saved):
     assert findings_of(saying(saved, MANUAL)) == [(
         "calculation", first,
         "the workbook was saved before its formulas were calculated (calculation is manual), and"
-        f" {first}, {second} may show former values: {CALCULATE}",
+        f" {first}, {second} may show previous values: {CALCULATE}",
     )]  # fmt: skip
     ((_, _, text),) = findings_of(saying(saved, b'calcCompleted="false"'))
     assert text.startswith("the workbook was saved before its formulas were calculated, and Arrays")
@@ -193,7 +193,7 @@ def test_computed_cells_alone_are_a_warning_in_manual_mode_and_none_in_a_fresh_w
     assert findings_of(saying(path, MANUAL)) == [(
         "calculation", "Project",
         "the workbook was saved before its formulas were calculated (calculation is manual), and"
-        f" its computed cells may show former values: {CALCULATE}",
+        f" its computed cells may show previous values: {CALCULATE}",
     )]  # fmt: skip
 
 

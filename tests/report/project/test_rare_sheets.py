@@ -189,7 +189,7 @@ def test_a_row_takes_one_coefficient_for_each_block(tmp_path, friction):
     linked = make(tmp_path, arrays=arrays(**friction), links=[row_of(), row_of("A2")])
     assert problems(linked) == with_addresses(
         "Links/1/Array is 'A1', which has high-velocity or static friction; leave both"
-        " blank on the sheet Arrays, or delete this row"
+        " blank on the Arrays worksheet, or delete this row"
     )
 
 
@@ -277,8 +277,8 @@ def test_an_unknown_name_is_told_by_its_cell(tmp_path):
         f"{FIRST}: outline of 'A11', which is not in Arrays or Objects; did you mean 'A1'?"
     )
     assert found[0].endswith(
-        "x from is missing; give all four sides of the rectangle, or an outline on the sheet"
-        " Outlines"
+        "x from is missing; give all four sides of the rectangle, or an outline on the"
+        " Outlines worksheet"
     )
 
 

@@ -25,10 +25,13 @@ def drawn(folder, shift_ft=0.0, factor=1.0, *, has_unit=True, unit="ft"):
 
 
 def plan_read(book, unit=""):
-    """The answer of the page's job, or its problems."""
+    """The answer of the page's job, or its problems; the workbook is then the one it filled in."""
     to = book.parent / "filled.xlsx"
     job = {"do": "read_plan", "workbook": str(book), "to": str(to), "layers": "{}", "unit": unit}
-    return perform(job)
+    done = perform(job)
+    if "answer" in done:
+        to.replace(book)
+    return done
 
 
 @pytest.mark.nightly
@@ -64,4 +67,5 @@ def test_a_size_that_few_have_is_asked_about_on_the_page_and_answered_by_a_unit(
 def test_an_unknown_unit_is_refused(tmp_path):
     book = blank(tmp_path / "input.xlsx", UnitsFirst.US)
     drawn(tmp_path)
-    assert "nobody says the unit" in json.dumps(plan_read(book, "furlong")["problems"])
+    problems = json.dumps(plan_read(book, "furlong")["problems"])
+    assert "the drawing does not state its unit" in problems
