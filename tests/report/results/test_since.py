@@ -356,5 +356,5 @@ def test_more_changes_than_can_be_laid_out_are_refused_with_both_limits(assessme
     ):
         check_listed(changes(former(document), assessment))
     document["checks"] = [row | {"found_text": "x " * 2_500_000}]
-    with pytest.raises(InputError, match=r"--since: .* rows of 5,\d\d\d,\d\d\d letters"):
+    with pytest.raises(InputError, match=r"--since: .* rows of 5,\d\d\d,\d\d\d characters"):
         check_listed(changes(former(document), assessment))
