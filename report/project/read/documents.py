@@ -16,6 +16,7 @@ from report.project.read.linked_files import path_beside
 from report.project.read.study_years import YEARS, StudyYears
 from report.project.workbook import SECTION
 from report.project.workbook.entries import Entry
+from solver.files import read_file
 from solver.model import InputError
 
 # Bytes of all documents that a workbook attaches.
@@ -60,7 +61,8 @@ def read_documents(book: OpenBook, inputs: Inputs) -> tuple[tuple[Document, ...]
 
 def _document(book: OpenBook, entry: Entry, name: str, bytes_left: int) -> Document:
     example = str(entry.example)
-    content = path_beside(book.path.parent, name, MAX_DOCUMENTS, example).read_bytes()
+    file = path_beside(book.path.parent, name, MAX_DOCUMENTS, example)
+    content = read_file(file, MAX_DOCUMENTS, f"'{name}'", too_large="shrink it")
     if entry.name == "study_years":
         _check_years(name, content)
     elif not content.startswith(b"%PDF-"):
