@@ -157,14 +157,19 @@ def test_former_results_are_attached_as_they_were_compared(tmp_path, monkeypatch
         was := results_json(assessment, assessments.evidence(assessment))
     )
     kept = {}
-    monkeypatch.setattr(
-        "report.typeset.pdf.lay_out",
-        lambda _, files, tell: (
-            kept.update({file.name: file.content for file in files}) or tell(1) or b"%PDF"
-        ),
-    )
-    replaced = lambda _: (tmp_path / "results.json").write_bytes(OTHER)  # noqa: E731
-    making.make(EXAMPLE, tmp_path / "out", tmp_path / "results.json", print, replaced)
+
+    def keep_files(_html, files, tell):
+        kept.update({file.name: file.content for file in files})
+        tell(1)
+        return b"%PDF"
+
+    def replace_former(step):
+        if step.doing == "running the motions":
+            (tmp_path / "results.json").write_bytes(OTHER)
+
+    monkeypatch.setattr(making, "lay_out", keep_files)
+    making.make(EXAMPLE, tmp_path / "out", tmp_path / "results.json", replace_former)
+    assert (tmp_path / "results.json").read_bytes() == OTHER
     assert kept["since/results.json"] == was
 
 
