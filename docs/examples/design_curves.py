@@ -10,18 +10,18 @@ from pathlib import Path
 
 import numpy as np
 
-import solver
+import roofslip
 
-records = Path(solver.__file__).parents[1] / "projects/example/records"
+records = Path(roofslip.__file__).parent / "projects/example/records"
 motions = [
-    solver.motion(
-        solver.read_record(records / f"RM{k}-x.csv"),
-        az_mps2=solver.read_record(records / f"RM{k}-z.csv"),
+    roofslip.motion(
+        roofslip.read_record(records / f"RM{k}-x.csv"),
+        az_mps2=roofslip.read_record(records / f"RM{k}-z.csv"),
         id=f"RM{k}",
     )
     for k in range(1, 8)
 ]
-runs = solver.study(
+runs = roofslip.study(
     motions,
     slopes_rad=np.radians([0.0, 2.0, 5.0]),
     mus=np.linspace(0.3, 0.9, 13),

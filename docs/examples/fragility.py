@@ -13,17 +13,17 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-import solver
+import roofslip
 
-records = Path(solver.__file__).parents[1] / "projects/example/records"
+records = Path(roofslip.__file__).parent / "projects/example/records"
 
 peaks = []
 for k in range(1, 8):
-    record = solver.read_record(records / f"RM{k}-x.csv")
+    record = roofslip.read_record(records / f"RM{k}-x.csv")
     to_one_g = 9.80665 / abs(record.a_mps2).max()
-    peaks.append(solver.motion(record, id=f"RM{k}", scale=to_one_g))
+    peaks.append(roofslip.motion(record, id=f"RM{k}", scale=to_one_g))
 ppa_g = np.linspace(0.1, 2.0, 20)
-runs = solver.study(peaks, slopes_rad=[0.02], mus=[0.4], intensities=ppa_g)
+runs = roofslip.study(peaks, slopes_rad=[0.02], mus=[0.4], intensities=ppa_g)
 limits_m = {"half the gap": 0.15, "the gap": 0.3}
 fragilities = {
     words: runs.fragility(limit_m, slope_rad=0.02, mu=0.4) for words, limit_m in limits_m.items()

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pandas as pd
 
-import solver
+import roofslip
 
-records = Path(solver.__file__).parents[1] / "projects/example/records"
-components = [solver.read_record(records / f"RM2-{name}.csv") for name in "xyz"]
-ground = solver.motion(*components, id="RM2", scale=0.3)
-building = solver.building_of_periods([0.5], damping=[0.05], stories=4)
-roof = solver.at_roof(ground, building)
+records = Path(roofslip.__file__).parent / "projects/example/records"
+components = [roofslip.read_record(records / f"RM2-{name}.csv") for name in "xyz"]
+ground = roofslip.motion(*components, id="RM2", scale=0.3)
+building = roofslip.building_of_periods([0.5], damping=[0.05], stories=4)
+roof = roofslip.at_roof(ground, building)
 print(building)
 print(ground)
 print(roof)
@@ -24,8 +24,8 @@ print(roof)
 # %%
 spectra = pd.DataFrame(
     {
-        "ground": solver.spectrum(ground).to_frame()["x"],
-        "roof": solver.spectrum(roof).to_frame()["x"],
+        "ground": roofslip.spectrum(ground).to_frame()["x"],
+        "roof": roofslip.spectrum(roof).to_frame()["x"],
     }
 )
 axes = spectra.plot(logx=True, xlabel="period [s]", ylabel="pseudo-acceleration [m/s2]")
@@ -34,7 +34,7 @@ axes.figure.savefig("ground-to-roof.png")
 
 # %%
 slid = {
-    name: solver.slide(motion, slope_rad=0.02, mu=0.3)
+    name: roofslip.slide(motion, slope_rad=0.02, mu=0.3)
     for name, motion in (("ground", ground), ("roof", roof))
 }
 for name, result in slid.items():
@@ -46,7 +46,7 @@ for name, result in slid.items():
 # %%
 ratio = spectra["roof"] / spectra["ground"]
 assert abs(ratio.idxmax() / 0.5 - 1.0) < 0.1
-stiff = solver.at_roof(ground, solver.building_of_periods([0.01], stories=1))
-result = solver.slide(stiff, slope_rad=0.02, mu=0.3)
+stiff = roofslip.at_roof(ground, roofslip.building_of_periods([0.01], stories=1))
+result = roofslip.slide(stiff, slope_rad=0.02, mu=0.3)
 print(f"roof of a stiff building: {result}")
 assert abs(result.prd_m / slid["ground"].prd_m - 1.0) < 0.05

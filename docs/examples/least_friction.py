@@ -9,14 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
-import solver
+import roofslip
 
-records = Path(solver.__file__).parents[1] / "projects/example/records"
+records = Path(roofslip.__file__).parent / "projects/example/records"
 motions = [
-    solver.motion(solver.read_record(records / f"RM{k}-x.csv"), id=f"RM{k}") for k in range(1, 8)
+    roofslip.motion(roofslip.read_record(records / f"RM{k}-x.csv"), id=f"RM{k}")
+    for k in range(1, 8)
 ]
 slopes_deg, allowed_m = [0.0, 1.0, 2.0, 3.0], 0.3
-runs = solver.study(
+runs = roofslip.study(
     motions, slopes_rad=np.radians(slopes_deg), mus=np.linspace(0.2, 1.0, 33), intensities=[0.8]
 )
 least = runs.minimum_friction(allowed_m / 1.1)[:, 0]
@@ -38,7 +39,7 @@ axes.figure.savefig("least-friction.png")
 
 # %%
 for slope, mu in zip(slopes_deg, least, strict=True):
-    again = solver.study(motions, slopes_rad=[np.radians(slope)], mus=[mu], intensities=[0.8])
+    again = roofslip.study(motions, slopes_rad=[np.radians(slope)], mus=[mu], intensities=[0.8])
     found_m = 1.1 * again.statistics().mean_m.item()
     print(f"{slope:.0f} deg: {found_m:.3f} m at {mu:.3f}")
     assert abs(found_m / allowed_m - 1.0) < 0.05

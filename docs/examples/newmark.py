@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-import solver
+import roofslip
 
 G = 9.80665
 
@@ -45,8 +45,8 @@ assert abs(one_way(pulse, a_c, dt)[-1] / closed_m - 1.0) < 1e-3
 # the normal force frozen; and then no slip upslope, with the step of the record.
 
 # %%
-records = Path(solver.__file__).parents[1] / "projects/example/records"
-record = solver.read_record(records / "RM1-x.csv")
+records = Path(roofslip.__file__).parent / "projects/example/records"
+record = roofslip.read_record(records / "RM1-x.csv")
 mu, slopes_deg = 0.4, [0.0, 1.0, 2.0, 3.0, 5.0]
 
 
@@ -56,7 +56,7 @@ def prds_m(slope_deg):
     found = {}
     for name, method in (("exact", "exact"), ("normal force frozen", "frozen-normal")):
         about = {"slope_rad": theta, "mu": mu, "method": method}
-        found[name] = max(solver.slide(record, scale=s, **about).prd_m for s in (1.0, -1.0))
+        found[name] = max(roofslip.slide(record, scale=s, **about).prd_m for s in (1.0, -1.0))
     resistance = G * (mu * math.cos(theta) - math.sin(theta))
     slips = (
         one_way(sign * record.a_mps2 * math.cos(theta), resistance, record.dt_s)[-1]

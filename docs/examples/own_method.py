@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Your own method compared with the others
 #
-# `solver.METHODS` has twelve methods for one axis. A new method needs one function, which receives
-# the scene and fills in displacement and velocity at the samples. This one is Moreau's time
-# stepping, which projects the velocity of each step onto the range that friction allows (Moreau,
+# `roofslip.METHODS` has twelve methods for one axis. A new method needs one function, which
+# receives the scene and fills in displacement and velocity at the samples. This one is Moreau's
+# time stepping, which projects the velocity of each step onto the range that friction allows (Moreau,
 # Unilateral contact and dry friction in finite freedom dynamics, CISM 302 (1988) 1-82).
 
 # %%
@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-import solver
+import roofslip
 
 
 def time_stepping(scene, parameters, samples):
@@ -33,11 +33,11 @@ def time_stepping(scene, parameters, samples):
     if samples.size:
         samples[:] = path[::parts], speeds[::parts]
     peak = dt * int(np.argmax(np.abs(path)))
-    return solver.Outcome(True, max(path), min(path), path[-1], v, peak, stops)
+    return roofslip.Outcome(True, max(path), min(path), path[-1], v, peak, stops)
 
 
 mine = replace(
-    solver.METHODS["paper"],
+    roofslip.METHODS["paper"],
     name="time-stepping",
     title="Moreau's time stepping",
     parameters={"substeps": 4},
@@ -45,12 +45,12 @@ mine = replace(
 )
 
 # %%
-records = Path(solver.__file__).parents[1] / "projects/example/records"
-record = solver.read_record(records / "RM1-x.csv")
-exact = solver.slide(record, slope_rad=0.03, mu=0.4)
+records = Path(roofslip.__file__).parent / "projects/example/records"
+record = roofslip.read_record(records / "RM1-x.csv")
+exact = roofslip.slide(record, slope_rad=0.03, mu=0.4)
 rows = {
-    method.title: solver.slide(record, slope_rad=0.03, mu=0.4, method=method).prd_m
-    for method in (*solver.METHODS.values(), mine)
+    method.title: roofslip.slide(record, slope_rad=0.03, mu=0.4, method=method).prd_m
+    for method in (*roofslip.METHODS.values(), mine)
     if "scipy" not in method.source  # those need it installed
 }
 table = pd.DataFrame({"prd_m": rows})
@@ -63,9 +63,9 @@ print(table)
 
 # %%
 about = {"slope_rad": 0.03, "mu": 0.4}
-path = solver.slide_history(record, **about)
+path = roofslip.slide_history(record, **about)
 substeps = [1, 2, 4, 8, 16, 32]
-found = [solver.slide_history(record, **about, method=mine, substeps=n) for n in substeps]
+found = [roofslip.slide_history(record, **about, method=mine, substeps=n) for n in substeps]
 errors = pd.Series([np.abs(run.u_m - path.u_m).max() for run in found], index=substeps)
 axes = errors.plot(loglog=True, marker="o", xlabel="sub-steps", ylabel="error [m]")
 axes.figure.savefig("own-method.png")

@@ -7,11 +7,11 @@
 # %%
 from pathlib import Path
 
-import solver
+import roofslip
 
-records = Path(solver.__file__).parents[1] / "projects/example/records"
-record = solver.read_record(records / "RM1-x.csv")
-history = solver.slide_history(record, slope_rad=0.03, mu=0.4)
+records = Path(roofslip.__file__).parent / "projects/example/records"
+record = roofslip.read_record(records / "RM1-x.csv")
+history = roofslip.slide_history(record, slope_rad=0.03, mu=0.4)
 print(history.result)
 
 # %% [markdown]

@@ -8,14 +8,14 @@
 from math import hypot
 from pathlib import Path
 
-import solver
+import roofslip
 
-records = Path(solver.__file__).parents[1] / "projects/example/records"
-x, y, z = (solver.read_record(records / f"RM1-{name}.csv") for name in "xyz")
-motion = solver.motion(x, y, z, id="RM1")
-both = solver.slide_history(motion, slope_rad=0.03, mu=0.4)
-along = solver.slide(x, az_mps2=z, slope_rad=0.03, mu=0.4)
-across = solver.slide(y, az_mps2=z, slope_rad=0.0, mu=0.4)
+records = Path(roofslip.__file__).parent / "projects/example/records"
+x, y, z = (roofslip.read_record(records / f"RM1-{name}.csv") for name in "xyz")
+motion = roofslip.motion(x, y, z, id="RM1")
+both = roofslip.slide_history(motion, slope_rad=0.03, mu=0.4)
+along = roofslip.slide(x, az_mps2=z, slope_rad=0.03, mu=0.4)
+across = roofslip.slide(y, az_mps2=z, slope_rad=0.0, mu=0.4)
 print("two axes:    ", both.result)
 print("along alone: ", along)
 print("across alone:", across)
@@ -24,7 +24,7 @@ print("across alone:", across)
 # `solve` runs the simpler models too and says which one is enough, and why.
 
 # %%
-print(solver.solve(solver.scene(motion, slope_rad=0.03, mu=0.4)))
+print(roofslip.solve(roofslip.scene(motion, slope_rad=0.03, mu=0.4)))
 
 # %%
 frame = both.to_frame()
