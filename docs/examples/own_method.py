@@ -3,8 +3,8 @@
 #
 # `roofslip.METHODS` has twelve methods for one axis. A new method needs one function, which
 # receives the scene and fills in displacement and velocity at the samples. This one is Moreau's
-# time stepping, which projects the velocity of each step onto the range that friction allows (Moreau,
-# Unilateral contact and dry friction in finite freedom dynamics, CISM 302 (1988) 1-82).
+# time stepping, which projects the velocity of each step onto the range that friction allows
+# (Moreau, Unilateral contact and dry friction in finite freedom dynamics, CISM 302 (1988) 1-82).
 
 # %%
 from dataclasses import replace
