@@ -158,9 +158,9 @@ def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
 
 @pytest.mark.nightly
 def test_the_package_is_made_and_verified_from_the_workbook_alone(tmp_path):
-    _, folder, made, _ = make(without_motions(tmp_path), None, None, lambda _: None)
-    assert {path.name for path in folder.iterdir()} >= made.keys()
-    commands.stdout_of("verify-package", folder / "calc-package.pdf")
+    made = make(without_motions(tmp_path), None, None, lambda _: None)
+    assert {path.name for path in made.folder.iterdir()} >= made.files.keys()
+    commands.stdout_of("verify-package", made.folder / "calc-package.pdf")
 
 
 L_FT = ((30, 140), (180, 140), (180, 190), (140, 190), (140, 232), (30, 232))
@@ -208,7 +208,8 @@ def without_places(path):
 def reported(tmp_path_factory):
     job = tmp_path_factory.mktemp("drawn")
     without_places(job / "input.xlsx")
-    shutil.copytree(ROOT / "projects" / "example" / "records", job / "records")
+    for folder in ("documents", "records"):
+        shutil.copytree(ROOT / "projects" / "example" / folder, job / folder)
     with packages.unlaid(), packages.undrawn():
         commands.stdout_of("plan", "read", drawing(job), job)
         commands.stdout_of("report", job)
