@@ -334,7 +334,7 @@ def test_the_example_of_the_first_package_has_the_numbers_of_its_pages(reported)
     told = told.partition("`out/calc-package.pdf` begins")[0]
     sheets = PdfDocument(reported.out / "calc-package.pdf")
     pages = "".join(sheet.get_textpage().get_text_range() for sheet in sheets)
-    numbers = re.findall(r"(\d+\.\d) in\b|D/C (\d\.\d+)|smallest tested, (\d\.\d+)", told)
+    numbers = re.findall(r"(\d+\.\d) in\b|D/C (?:of )?(\d\.\d+)|smallest tested, (\d\.\d+)", told)
     assert len(numbers) > 8
     assert [each for each in map("".join, numbers) if not re.search(rf"\b{each}\b", pages)] == []
 
