@@ -337,7 +337,7 @@ def test_a_roof_goes_from_its_drawing_to_a_verdict_with_no_place_clearance_or_re
     drawing, roof = layout().saved(tmp_path), tmp_path / "roof"
     workbook = roof / "input.xlsx"
     stdout_of("new", roof)
-    assert "nothing is written" in errors_of("plan", "read", drawing, roof)
+    assert "nothing was written" in errors_of("plan", "read", drawing, roof)
     assert all(not cells for cells in typed_cells(workbook).values())
     stdout_of("plan", "read", drawing, roof, "--accept")
     filled = typed_cells(workbook)
