@@ -253,10 +253,10 @@ def test_a_format_without_digits_shows_nothing(nothing, cells):
 # Cell, number format, and how it shows the number; what to give instead.
 MISLEADING = [
     ("Arrays/A1/CG height", '0" mm"', "9, shown in mm", "greater than 0 [in]"),
-    ("Arrays/A1/Weight", "0,", "42000, shown divided by 1,000", "more than 0 [lb]"),
+    ("Arrays/A1/Weight", "0,", "42000, shown divided by 1,000", "greater than 0 [lb]"),
     ("Site/Structure height h", '0.0" m"', "36, shown in m", "0 [ft]"),
     ("Options/1/Value", '0" ft"', "18, shown in ft", "give a number"),
-    ("Motions/M2/Factor or PPA", '0.0"g"', "2, shown in g", "more than 0"),
+    ("Motions/M2/Factor or PPA", '0.0"g"', "2, shown in g", "greater than 0"),
 ]
 
 
