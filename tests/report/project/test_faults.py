@@ -225,8 +225,8 @@ CONTRADICTIONS = [
      "Site/Longitude is missing; give latitude and longitude, or neither"),
     ({"Site/S_S": 2.4},
      "Site/S_DS is 1.566 g; give at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for site class"
-     " 'D' (ASCE 7-16 Table 11.4-1†), or select the hazard basis 'site-specific analysis' and give"
-     " its report"),
+     " 'D' (ASCE 7-16 Table 11.4-1†), or select 'site-specific analysis' as basis of seismic"
+     " parameters and enter its report"),
     (roof(25, 300, 0, 74),
      "Arrays/A1/x from is 20.00 ft (6.10 m), outside the roof; give 25.00 ft (7.62 m) or more, or"
      " correct the outline at <Building/Roof x from>",
