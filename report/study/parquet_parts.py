@@ -225,7 +225,7 @@ def keep(folder: Path, content: bytes, key: bytes) -> Done:
 
 
 def begin(folder: Path, manifest: Mapping[str, Any], n_earlier: int) -> None:
-    """Write the manifest; `former` is the number of parts of the study that was there before.
+    """Write the manifest; `n_earlier` is the number of parts of the study that was there before.
 
     Raises `InputError` if a file has the name of a part and no study wrote it.
     """

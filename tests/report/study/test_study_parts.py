@@ -334,7 +334,7 @@ def test_killed_workers_lose_nothing_and_every_row_has_the_bytes_of_this_machine
     manifest = manifest_of(c, {})
     identity, numbers = manifest["identity"], range(len(c.parts))
     there, here = tmp_path / "there", tmp_path / "here"
-    begin(here, manifest, former=0)
+    begin(here, manifest, n_earlier=0)
     run_missing(here, c, identity, NAMES, numbers, KEY, lambda done: None)
     killed = []
 
@@ -345,7 +345,7 @@ def test_killed_workers_lose_nothing_and_every_row_has_the_bytes_of_this_machine
                 os.kill(process, signal.SIGKILL)
 
     with connected(cluster.scheduler_address, manifest) as client:
-        begin(there, manifest, former=0)
+        begin(there, manifest, n_earlier=0)
         run_on_cluster(client, there, c, identity, NAMES, numbers, KEY, on_done)
     assert len(killed) == 2
     assert sorted(done_parts(there, c, identity, KEY)) == list(numbers)
