@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import time
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
@@ -31,19 +32,21 @@ FileStamps = set[tuple[str, int, int]]
 """Path, time and size of each file."""
 
 
-def watch_project(source: Path, out: Path | None) -> NoReturn:
-    """Report, and again after every save, until Ctrl+C."""
+def watch_project(source: Path, out: Path | None, interrupts: Sequence[int]) -> NoReturn:
+    """Report, and again after every save, until Ctrl+C, which `interrupts` grows with."""
     with input_errors(source):
         workbook, results = located(source), b""
-    while True:
+    while not interrupts:
         stamps = settled(workbook)
         # After an error the next save is waited for as well.
         with suppress(SystemExit):
             results = report_again(workbook, out, results)
         gc.collect()  # a package leaves much that refers to itself
         click.echo(f"watching {workbook.parent}; end with Ctrl+C")
-        while file_stamps(workbook.parent) == stamps:
+        while not interrupts and file_stamps(workbook.parent) == stamps:
             time.sleep(POLL_S)
+    # Python drops it in a finalizer, and compiled code may raise an error of its own for it.
+    raise KeyboardInterrupt
 
 
 def report_again(workbook: Path, out: Path | None, former: bytes) -> bytes:

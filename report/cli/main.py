@@ -52,6 +52,7 @@ class _Commands(LazyGroup):
     def invoke(self, ctx: click.Context) -> Any:
         """Invoke a command that Ctrl+C may cut off."""
         with interrupts() as received:
+            ctx.obj = received  # for a command that goes on after errors
             try:
                 return super().invoke(ctx)
             except Exception as error:

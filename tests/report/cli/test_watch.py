@@ -10,12 +10,12 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import pytest
 
 from fixtures.cells import address
-from fixtures.commands import errors_of, hearing
+from fixtures.commands import errors_of, hearing, run
 from fixtures.marks import by_day
 from fixtures.packages import unlaid
 from fixtures.paths import ROOT, TESTS
@@ -190,6 +190,29 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
         # A mistake is printed, and the watch goes on.
         path.write_bytes(b"")
         until(f"{path}: 1 problem")
+
+
+def test_an_interrupt_that_python_drops_ends_the_watch(tmp_path, monkeypatch):
+    """As in a finalizer that the collection of garbage runs."""
+    rounds = []
+
+    def drop_interrupt():
+        rounds.append("collected")
+        if len(rounds) > 1:
+            raise KeyboardInterrupt
+        with suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+    path = make(tmp_path)
+    path.write_bytes(b"")
+    monkeypatch.setattr("report.cli.file_watcher.gc.collect", drop_interrupt)
+    monkeypatch.setattr("report.cli.file_watcher.file_stamps", lambda _: {len(rounds)})
+    monkeypatch.setattr("report.cli.file_watcher.MAX_POLLS", 1)
+    timer = later(20.0, lambda: rounds.append("saved"))
+    done = run("watch", tmp_path)
+    timer.cancel()
+    assert done.exit_code == INTERRUPTED
+    assert rounds == ["collected"]
 
 
 def outputs(folder):
