@@ -301,14 +301,14 @@ def test_a_workbook_without_the_column_is_refused_as_it_is_until_it_has_the_head
     assert not any(row.source for row in read(path).project.clearances)
     output = run("plan", "clearances", tmp_path, exit_code=2)
     assert (
-        cell_address("<Clearances/heading/Array>: heading 'Distance from' is missing; copy it")
+        cell_address("<Clearances/heading/Array>: heading 'Clearance source' is missing; copy it")
         in output
     )
     assert path.read_bytes() == before
-    type_into(path, {where: "Distance from"})
+    type_into(path, {where: "Clearance source"})
     fill(tmp_path)
     assert {row.source for row in read(path).project.clearances} == {ClearanceSource.DRAWING}
-    assert cell(load_workbook(path), HEADING).value == "Distance from"
+    assert cell(load_workbook(path), HEADING).value == "Clearance source"
 
 
 def test_a_name_without_a_date_confirms_nothing(tmp_path):
