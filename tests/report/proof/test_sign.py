@@ -358,7 +358,7 @@ def test_what_was_painted_over_before_it_was_signed_is_never_the_same(made, sign
     painted = tampering.rewritten(made, tampering.painted_over)
     path.write_bytes(sign(content=painted)[1])
     told = commands.output_of("verify-package", path, exit_code=4)
-    assert "drawings not compared: read the package made again" in told
+    assert "drawings not compared: read the regenerated package" in told
     assert "by 'Jane Doe, S.E.'" in told
     assert (tmp_path / "calc-package-signed-again.pdf").read_bytes() == made
 

@@ -114,7 +114,7 @@ def test_a_painted_package_is_not_compared_in_full_and_is_made_again_beside_it(w
     data = (whole / "out" / "calc-package.pdf").read_bytes()
     path = given(data, tampering.painted_over)
     told = commands.output_of("verify-package", path, exit_code=4)
-    assert "drawings not compared: read the package made again" in told
+    assert "drawings not compared: read the regenerated package" in told
     assert "Same" not in told
     assert "OK" not in told
     again = path.with_name("given-again.pdf")
@@ -334,7 +334,7 @@ def test_what_was_only_written_again_is_not_the_same(proof, data, tampered, few_
     again = tampering.rewritten(data, lambda pdf: None)
     found = proof(again)
     assert found.answer == Agreement.PARTLY
-    assert found.reasons == ("drawings not compared: read the package made again",)
+    assert found.reasons == ("drawings not compared: read the regenerated package",)
     assert found.is_to_be_read
     found = tampered(few_sheets, tampering.of_other_software, tampering.meant_otherwise)
     assert "where the input gives" in found.reasons[0]
@@ -402,13 +402,13 @@ def test_other_versions_explain_drawings_and_words_and_no_number(tampered, data,
     assert found.answer == Agreement.DIFFERS  # the sheet prints the version that made it
     found = tampered(few_sheets, lambda pdf: tampering.of_other_software(pdf, "system"))
     (told,) = found.reasons
-    said = "drawings not compared: read the package made again; it names system 0.9"
+    said = "drawings not compared: read the regenerated package; it names system 0.9"
     assert told.startswith(said)
     found = tampered(few_sheets, of_another_version)
     assert found.answer == Agreement.PARTLY
     (told,) = found.reasons
     assert told.startswith("Roofslip 0.0.9 made it: install that version")
-    assert "words and drawings not compared: read the package made again" in told
+    assert "words and drawings not compared: read the regenerated package" in told
 
     def changed(pdf):
         of_another_version(pdf)
