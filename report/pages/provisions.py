@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from markupsafe import Markup, escape
 
 from report.assessment.checks.check import dagger
+from report.assessment.design.rule_set import as_adopted
 from report.document.columns import text, words
 from report.document.tables import headed, listed
 from report.pages.marks import UNVERIFIED
@@ -30,7 +31,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     columns = (
         (words("Provision", 6.0), lambda row: row[0]),
         (text("Value", share=0.75), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
-        (words("Clause", 1.7), lambda row: row[1].clause.removeprefix(before_clauses)),
+        (words("Code section", 1.6), lambda row: row[1].clause.removeprefix(before_clauses)),
     )
     # Two columns of the page; the left one has the odd row.
     middle = (len(named) + 1) // 2
@@ -51,6 +52,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "confirmed": data.confirmed,
         "confirmed_documents": ", ".join(data.confirmation.of),
         "unverified": UNVERIFIED,
+        "is_changed": as_adopted(data) is not data,
         "overrides": headed(*_OVERRIDES, rows=overrides) if overrides else None,
     }
 

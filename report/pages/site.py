@@ -24,7 +24,7 @@ from solver.rules import hazard
 from solver.rules.hazard import ComponentForce, HazardBasis, component_force
 
 _COLUMNS = (
-    ("Description", 3.2), ("Symbol", 0.65), ("Value", 1.55, "right"), ("Source", 3.25),
+    ("Description", 3.4), ("Symbol", 0.65), ("Value", 1.55, "right"), ("Source", 3.05),
     ("Reference", 2.05),
 )  # fmt: skip
 _NOT_ENTERED = "not entered"

@@ -77,48 +77,36 @@ _whole_at_most = partial(Allowed, is_whole=True, is_maximum=True)
 # What a workbook may override. Outside of its range a number has another unit or no meaning. A
 # factor below 1 on the peaks would give less than was computed.
 ALLOWED: Mapping[str, Allowed] = {
-    "prescriptive_factor_in": Allowed(
-        1, 600, "factor on (S_DS - 0.4)^2 in the prescriptive displacement [in]"
-    ),
+    "prescriptive_factor_in": Allowed(1, 600, "prescriptive displacement / (S_DS - 0.4)^2 [in]"),
     "prescriptive_minimum_in": Allowed(0, 240, "minimum prescriptive displacement [in]"),
     "prescriptive_low_sdc_in": Allowed(0, 240, "prescriptive displacement in SDC A, B, C [in]"),
-    "prescriptive_max_slope_deg": _at_most(0, 30, "maximum slope for the prescriptive route [deg]"),
-    "prescriptive_min_mu": Allowed(
-        0, 1.5, "minimum friction coefficient for the prescriptive route"
-    ),
-    "analysis_max_slope_deg": _at_most(0, 30, "maximum slope for the analysis route [deg]"),
+    "prescriptive_max_slope_deg": _at_most(0, 30, "maximum slope, prescriptive procedure [deg]"),
+    "prescriptive_min_mu": Allowed(0, 1.5, "minimum friction coefficient, prescriptive procedure"),
+    "analysis_max_slope_deg": _at_most(0, 30, "maximum slope, analysis procedure [deg]"),
     "ibc_max_slope_deg": _at_most(0, 30, "maximum slope of any ballasted system [deg]"),
     "max_stories": _whole_at_most(1, 200, "maximum number of stories of the building"),
     "max_risk_category": _whole_at_most(1, 4, "highest risk category (I = 1 ... IV = 4)"),
     "low_profile_in": _at_most(1, 120, "maximum height of the center of gravity [in]"),
     "low_profile_ratio": _at_most(
-        0.01, 5, "maximum height of the center of gravity / least base or support spacing"
+        0.01, 5, "maximum height of the center of gravity / smallest base or support spacing"
     ),
-    "analysis_min_motions": _whole(1, 100, "minimum number of motions for the analysis route"),
-    "analysis_mean_motions": _whole(1, 100, "minimum number of motions for a value from the mean"),
+    "analysis_min_motions": _whole(1, 100, "minimum number of motions, analysis procedure"),
+    "analysis_mean_motions": _whole(1, 100, "minimum number of motions for use of the mean"),
     "analysis_factor": Allowed(1, 10, "factor on the mean or on the largest peak"),
-    "analysis_floor": Allowed(
-        0, 1, "minimum fraction of the prescriptive displacement without peer review"
-    ),
-    "separation_like": Allowed(0, 10, "separation between like arrays / design displacement"),
+    "analysis_floor": Allowed(0, 1, "floor without peer review / prescriptive displacement"),
+    "separation_like": Allowed(0, 10, "separation factor, array of similar construction"),
     "separation_fixed": Allowed(
-        0.1, 10, "separation to a fixed object or unlike array / design displacement"
+        0.1,
+        10,
+        "separation factor, fixed object or array of different construction",
     ),
-    "separation_parapet": Allowed(
-        0, 10, "separation to an edge with a qualifying parapet / design displacement"
-    ),
-    "separation_edge": Allowed(
-        0.1, 10, "separation to an edge without qualifying parapet / design displacement"
-    ),
+    "separation_parapet": Allowed(0, 10, "separation factor, edge with qualifying parapet"),
+    "separation_edge": Allowed(0.1, 10, "separation factor, edge without qualifying parapet"),
     "separation_edge_min_in": Allowed(
-        0, 600, "minimum separation to an edge without a qualifying parapet [in]"
+        0, 600, "minimum separation, edge without qualifying parapet [in]"
     ),
-    "parapet_height_in": Allowed(
-        0, 240, "minimum height of a qualifying parapet above the roof [in]"
-    ),
-    "parapet_over_cg_in": Allowed(
-        0, 240, "minimum height of a qualifying parapet above the array's c.g. [in]"
-    ),
+    "parapet_height_in": Allowed(0, 240, "qualifying parapet height above the roof [in]"),
+    "parapet_over_cg_in": Allowed(0, 240, "qualifying parapet height above the array's c.g. [in]"),
     "interconnection_sds": Allowed(0, 2, "interconnection strength / (S_DS W1)"),
     "interconnection_min": Allowed(0, 2, "minimum interconnection strength / W1"),
 }

@@ -17,7 +17,25 @@ def provision_unit(key: str) -> str:
     return allowed.meaning.partition(" [")[2].rstrip("]") if allowed else ""
 
 
-_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in ALLOWED}
+# Names in workbooks of versions before 0.4.0, without units.
+_FORMER_NAMES = {
+    "factor on (s_ds - 0.4)^2 in the prescriptive displacement": "prescriptive_factor_in",
+    "maximum slope for the prescriptive route": "prescriptive_max_slope_deg",
+    "minimum friction coefficient for the prescriptive route": "prescriptive_min_mu",
+    "maximum slope for the analysis route": "analysis_max_slope_deg",
+    "maximum height of the center of gravity / least base or support spacing": "low_profile_ratio",
+    "minimum number of motions for the analysis route": "analysis_min_motions",
+    "minimum number of motions for a value from the mean": "analysis_mean_motions",
+    "minimum fraction of the prescriptive displacement without peer review": "analysis_floor",
+    "separation between like arrays / design displacement": "separation_like",
+    "separation to a fixed object or unlike array / design displacement": "separation_fixed",
+    "separation to an edge with a qualifying parapet / design displacement": "separation_parapet",
+    "separation to an edge without qualifying parapet / design displacement": "separation_edge",
+    "minimum separation to an edge without a qualifying parapet": "separation_edge_min_in",
+    "minimum height of a qualifying parapet above the roof": "parapet_height_in",
+    "minimum height of a qualifying parapet above the array's c.g.": "parapet_over_cg_in",
+}
+_KEYS_BY_NAME = {provision_name(key).casefold(): key for key in ALLOWED} | _FORMER_NAMES
 
 
 def provision_key(text: str) -> str:

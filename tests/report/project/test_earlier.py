@@ -2,9 +2,11 @@
 
 import json
 import shutil
+from itertools import takewhile
 
 import pytest
 from click.testing import CliRunner
+from openpyxl import load_workbook
 
 from fixtures.cells import address, cell
 from fixtures.marks import by_day
@@ -14,11 +16,13 @@ from fixtures.workbooks import edit, make, project, read_workbook, same, type_in
 from report.cli.main import main
 from report.project.check.covered import CONFIRMATIONS, outdated
 from report.project.model import ProjectInput
+from report.project.model.provision_names import provision_key
 from report.project.read.read import read
 from report.project.workbook import SECTION, SECTIONS
 from report.project.write.overwritten import overwritten
 from report.study.read_study import read_study
 from report.study.study_input import StudyInput
+from solver.rules.rulesets import ALLOWED
 
 EARLIER = DATA / "0.3.0"
 RECORDED = json.loads((EARLIER / "recorded.json").read_text())
@@ -100,6 +104,13 @@ def earlier_labels(book):
 
 def test_every_earlier_label_is_read_as_the_present_one(tmp_path):
     assert same(read(edit(make(tmp_path), earlier_labels)).project, project())
+
+
+@pytest.mark.quick
+def test_every_earlier_name_of_a_provision_is_that_of_the_present_one():
+    sheet = load_workbook(EARLIER / "example.xlsx", read_only=True)["Provisions"]
+    names = takewhile(bool, (row[0] for row in sheet.iter_rows(min_row=6, values_only=True)))
+    assert [provision_key(name) for name in names] == list(ALLOWED)
 
 
 @pytest.mark.parametrize("renamed", [False, True])

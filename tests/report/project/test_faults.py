@@ -48,7 +48,7 @@ NUMBER = "give a number from 0 to 1.5"
 WEIGHT = "give a number greater than 0 [lb]"
 CONTROL = "with control characters; retype it"
 FORMATTED = "give a number of 0 or more, formatted as a number"
-PARAPET = "for the minimum height of a qualifying parapet above the roof [in]; give a number from 0"
+PARAPET = "for the qualifying parapet height above the roof [in]; give a number from 0"
 
 # Of each cell, what is typed there, and how the line goes on after `its label is `.
 SINGLE_CELLS = {
@@ -219,7 +219,7 @@ CONTRADICTIONS = [
     ({"Site/Long-period transition T_L": 0.5, "Site/F_v": 1.7},
      "Site/Long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS = 0.507 s"),
     (row_cells("Options/2", {"Provision": "parapet_height_in", "Value": 20, "Reason": "x"}),
-     "Options/2/Provision is 'Minimum height of a qualifying parapet above the roof', already given"
+     "Options/2/Provision is 'Qualifying parapet height above the roof', already given"
      " at <Options/1/Provision>; delete one"),
     ({"Site/Latitude": 34.0},
      "Site/Longitude is missing; give latitude and longitude, or neither"),
@@ -326,9 +326,9 @@ TYPED = [
     ({"Site/Structure height h/Unit": "yd", "Site/Roof height z/Unit": None},
      f"<Site/Structure height h/Unit>: unit of structure height h is 'yd'; {LENGTHS}",
      f"<Site/Roof height z/Unit>: unit of roof height z is missing; {LENGTHS}"),
-    ({"Options/1/Provision": "minimum height of qualifying parapet above roof"},
-     "Options/1/Provision is 'minimum height of qualifying parapet above roof'; did you mean"
-     " 'Minimum height of a qualifying parapet above the roof'?"),
+    ({"Options/1/Provision": "qualifying parapet height over roof"},
+     "Options/1/Provision is 'qualifying parapet height over roof'; did you mean"
+     " 'Qualifying parapet height above the roof'?"),
     ({"Site/Rule set": "ASCE 7-16", "Options/1/Value": 20, "Options/1/Provision": LOW_SDC},
      f"Options/1/Provision is '{LOW_SDC}', which ASCE 7-16 does not have; delete the row"),
 ]  # fmt: skip

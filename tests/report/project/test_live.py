@@ -61,7 +61,7 @@ def typed_over(book):
 
 RATIO = "Clearances/{}/D/C, prescriptive"
 NEIGHBOR = "Clearances/1/Neighbor"
-FACTOR = "Provisions/Factor on (S_DS - 0.4)^2 in the prescriptive displacement/In use"
+FACTOR = "Provisions/Prescriptive displacement / (S_DS - 0.4)^2/In use"
 OVER = {
     "Site/S_DS/Computed": 1.2,
     "Arrays/A1/Kind of array": None,
