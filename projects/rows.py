@@ -10,7 +10,7 @@ import datetime as dt
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from solver.files import write_whole
+from solver.file_writing import write_whole
 from solver.records.record import write_record
 from solver.synthesis.suite import SuiteMotion
 

@@ -45,9 +45,9 @@ from report.results.xlsx import results_xlsx
 from report.steps import Step
 from report.typeset.letters import check_letters
 from report.typeset.pdf import lay_out
+from solver.errors import InputError
 from solver.kernels.compiler import is_compiled
 from solver.kernels.two_axes import slide_plane
-from solver.model import InputError
 
 
 class Made(NamedTuple):

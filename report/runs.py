@@ -21,15 +21,8 @@ from typing import TypeVar
 from report.project.model.array import Array
 from report.project.model.choices import Direction
 from report.text.units import nan_is_worst
-from solver.model import (
-    DefectError,
-    Motion,
-    Orientation,
-    Scene,
-    SlideHistory,
-    SlideResult,
-    Status,
-)
+from solver.errors import DefectError
+from solver.model import Motion, Orientation, Scene, SlideHistory, SlideResult, Status
 from solver.sliding import model_selection
 from solver.sliding.model_selection import DEFAULT, Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift

@@ -1,4 +1,4 @@
-"""Inputs and results of the solver: frozen records, outcomes, the two kinds of error.
+"""The model of a run: friction, motion and scene, and the result, all frozen.
 
 Contains no mathematics and reads no files. Read `solver.sliding.checked` next.
 """
@@ -6,7 +6,6 @@ Contains no mathematics and reads no files. Read `solver.sliding.checked` next.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -23,56 +22,6 @@ Floats = NDArray[np.float64]
 
 INCH_M = 0.0254
 STANDARD_GRAVITY_MPS2 = 9.80665
-
-
-@dataclass(frozen=True, slots=True)
-class Problem:
-    """An error that the user can fix."""
-
-    found: str
-    remedy: str = ""  # what would do; empty where `found` says it
-    where: str = ""  # cell or sheet; empty where `found` begins with the location
-    about: str = ""  # argument to change, such as units; empty where it is the file
-
-    @classmethod
-    def of(cls, line: str) -> Problem:
-        """Return a problem that is written `what was found; what would do`."""
-        fault, _, remedy = line.partition("; ")
-        return cls(fault, remedy)
-
-    def at(self, where: str, of: str = "") -> Problem:
-        """Return the problem of a field at an address."""
-        return Problem(f"{of} {self.found}".lstrip(), self.remedy, where)
-
-    @property
-    def text(self) -> str:
-        """What was found and what would do."""
-        return f"{self.found}; {self.remedy}" if self.remedy else self.found
-
-    def __str__(self) -> str:
-        return f"{self.where}: {self.text}" if self.where else self.text
-
-
-class InputError(ValueError):
-    """Errors that the user can fix: each with its location, what was found and what is accepted.
-
-    Attributes
-    ----------
-    parts : tuple
-        The problems, each with its place.
-    problems : tuple of str
-        One line for each problem.
-    """
-
-    def __init__(self, problems: str | Problem | Sequence[str | Problem]):
-        listed = [problems] if isinstance(problems, (str, Problem)) else problems
-        self.parts = tuple(Problem.of(each) if isinstance(each, str) else each for each in listed)
-        self.problems = tuple(map(str, self.parts))
-        super().__init__("\n".join(self.problems))
-
-
-class DefectError(RuntimeError):
-    """An internal error, which only the developers can fix: a state assumed impossible."""
 
 
 class Status(StrEnum):

@@ -2,12 +2,12 @@
 
 from solver.building.roof import at_roof
 from solver.building.structure import Building, building_of_periods
+from solver.errors import InputError
 from solver.formats import MotionFile, read_motion_file, read_record
 from solver.model import (
     Event,
     EventKind,
     Friction,
-    InputError,
     Motion,
     Scene,
     SlideHistory,

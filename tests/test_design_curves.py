@@ -27,7 +27,8 @@ from projects.curves.equation import (
 )
 from solver.building.roof import to_roof
 from solver.building.structure import building_of_periods
-from solver.model import STANDARD_GRAVITY_MPS2, InputError
+from solver.errors import InputError
+from solver.model import STANDARD_GRAVITY_MPS2
 from solver.studies.sweep import sweep
 
 TABLES = ROOT / "projects" / "curves"

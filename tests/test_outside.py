@@ -16,7 +16,7 @@ from fixtures.dxf import BOX_FT, Sketch
 from fixtures.file_changes import changes_within
 from fixtures.marks import nightly
 from report.motions.stored import unpack
-from solver.model import InputError
+from solver.errors import InputError
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="its folders have no such names")
 

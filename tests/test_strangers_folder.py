@@ -18,7 +18,7 @@ from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from report.project.read.read import read
 from report.project.write.filled import changing
-from solver.files import LOCK
+from solver.file_writing import LOCK
 
 
 @pytest.fixture(autouse=True)

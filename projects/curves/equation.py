@@ -18,7 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
+from solver.errors import InputError
+from solver.model import STANDARD_GRAVITY_MPS2, Floats
 
 LEAST_PRD_M = 0.010
 """PRD from which runs are fitted."""

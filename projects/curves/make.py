@@ -35,7 +35,8 @@ from projects.curves.equation import (
 )
 from solver.building.roof import to_roof
 from solver.building.structure import building_of_periods
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
+from solver.errors import InputError
+from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.records.spectrum import response_spectrum
 from solver.studies.curves import first_allowed
 from solver.studies.sweep import sweep

@@ -17,7 +17,7 @@ from report.project.read.read import read_book
 from report.project.write.filled import changing
 from report.text.counts import numbered
 from report.text.units import LENGTHS, WEIGHTS, Quantity, pair
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def fill_ballast(

@@ -16,7 +16,7 @@ from report.cli.terminal import plain, say_next
 from report.motions.prepare import prepare
 from report.project.read.read import read_book, without_motions
 from report.project.write.filled import WorkbookChange, changing, withdrawn
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def fill_clearances(project: Path) -> None:

@@ -24,7 +24,7 @@ from report.cli.terminal import plain, print_json
 from report.results.publish import OUTPUTS
 from report.text.command_line import as_typed
 from report.text.counts import numbered
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 SCHEMA_VERSION = 1
 """Of the documents of `--json`: raised where a key changes its name or meaning."""

@@ -17,7 +17,7 @@ from report.motions.stored import unpack
 from report.project.write.filled import changing
 from report.results.added_motions import row_cells, set_rows
 from report.text.counts import numbered
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def add_motions(

@@ -28,7 +28,7 @@ from report.suite.targets import (
 )
 from report.text.command_line import called
 from report.text.counts import numbered
-from solver.model import InputError
+from solver.errors import InputError
 from solver.rules.hazard import Tail
 
 

@@ -13,8 +13,9 @@ from report.project.model.choices import UnitsFirst
 from report.project.write.example import example_files
 from report.project.write.template import write_template
 from report.text.command_line import command
-from solver.files import add_folder, check_plain, write_all
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import check_plain
+from solver.file_writing import add_folder, write_all
 
 
 def new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -> None:

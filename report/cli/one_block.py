@@ -15,9 +15,10 @@ import click
 from report.cli.input_errors import input_errors
 from report.text.aligned import aligned
 from report.text.json_numbers import finite
+from solver.errors import InputError
 from solver.formats import read_record
 from solver.friction_tests import MOST_MU
-from solver.model import STANDARD_GRAVITY_MPS2, InputError
+from solver.model import STANDARD_GRAVITY_MPS2
 from solver.records.record import Record, has_gravity
 from solver.sliding.checked import scene
 from solver.sliding.model_selection import solve

@@ -31,8 +31,8 @@ from report.proof.package import (
 from report.provenance.known_errors import touching
 from report.results.publish import OUTPUTS, STAMP, warn_if_mixed
 from report.steps import STEPS
-from solver.files import write_whole
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_writing import write_whole
 
 COMPARING = 0.1
 """Usual time of the comparison, as a share of that of the package."""

@@ -11,8 +11,9 @@ import click
 from report.cli.input_errors import input_errors
 from report.proof.package import read_package
 from report.proof.signatures import signed
-from solver.files import check_plain, read_file, write_whole
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import check_plain, read_file
+from solver.file_writing import write_whole
 
 MAX_KEY_BYTES = 1_000_000
 

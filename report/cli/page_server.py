@@ -27,7 +27,7 @@ from report.cli.exit_codes import INPUT_ERROR, INTERNAL_ERROR
 from report.cli.input_errors import input_errors
 from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER, Keys
 from report.web.app import made
-from solver.files import read_file
+from solver.file_checks import read_file
 
 LOOPBACK = "127.0.0.1"
 HTTP_PORT = 80

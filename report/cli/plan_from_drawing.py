@@ -30,7 +30,7 @@ from report.text.aligned import aligned
 from report.text.command_line import command
 from report.text.counts import numbered
 from report.text.units import LENGTHS, Quantity, pair
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 from solver.suggestions import nearest
 
 # A drawing may have thousands of layers, with names of any length.

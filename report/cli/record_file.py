@@ -13,9 +13,9 @@ import click
 
 from report.cli.input_errors import input_errors
 from report.motions.measured import summary, table
-from solver.files import write_whole
+from solver.errors import InputError
+from solver.file_writing import write_whole
 from solver.formats import MotionFile, read_motion_file
-from solver.model import InputError
 from solver.records.record import record_csv
 
 # Rounding error allowed in a converted record, relative to its peak.

@@ -37,7 +37,7 @@ from report.steps import STEPS, Step
 from report.text.aligned import aligned
 from report.text.counts import numbered
 from report.text.units import ratio
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -19,7 +19,7 @@ from report.text.grouping import grouped_by
 from report.text.names import LONGEST, joined, name_order, ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import Unit
-from solver.model import DefectError
+from solver.errors import DefectError
 
 # The format of a table without quantities in two systems of units.
 PLAIN = UnitFormat(us_first=True, none="—")

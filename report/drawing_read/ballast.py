@@ -22,8 +22,8 @@ from report.project.read.number_formats import unit_named
 from report.project.read.typed_text import number_in, separator, with_point
 from report.text.typed_letters import cut
 from report.text.units import LENGTHS
-from solver.files import read_file
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import read_file
 
 MAX_BYTES, MAX_ROWS, MAX_BLOCKS = 5_000_000, 20_000, 10_000
 COLUMNS = ("x", "y", "blocks")

@@ -15,8 +15,8 @@ from ezdxf import recover
 from ezdxf.document import Drawing as Document
 from ezdxf.filemanagement import dxf_stream_info, read
 
-from solver.files import read_file
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import read_file
 from solver.suggestions import meant
 
 MB = 1_000_000

@@ -30,7 +30,7 @@ from report.project.workbook import SECTION
 from report.project.write.filled import DIGITS, WorkbookChange
 from report.text.grouping import grouped_by
 from report.text.units import LENGTHS, Quantity
-from solver.model import InputError
+from solver.errors import InputError
 
 _MOVE = "Run roofslip new FOLDER and copy your cells into the new workbook"
 

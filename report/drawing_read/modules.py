@@ -23,7 +23,8 @@ from report.project.model.choices import LayerKind
 from report.project.model.shapes import Polygon, mean, ring, solid
 from report.project.read.locate_table import MAX_ROWS
 from report.text.units import LENGTHS
-from solver.model import INCH_M, InputError
+from solver.errors import InputError
+from solver.model import INCH_M
 
 # Largest gap between modules of one array [m] by default.
 GAP_M = 20.0 * INCH_M

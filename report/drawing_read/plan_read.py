@@ -33,7 +33,7 @@ from report.project.model.shapes import (
     solid,
 )
 from report.text.units import LENGTHS, Quantity, pair
-from solver.model import InputError
+from solver.errors import InputError
 
 _READ: Mapping[Layer, LayerKind] = {
     Layer.OUTLINE: LayerKind.ROOF,

@@ -38,7 +38,7 @@ from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing, Unread, 
 from report.project.model.shapes import Point, Polygon, ring
 from report.text.typed_letters import UNPRINTABLE, trimmed
 from report.text.units import LENGTHS
-from solver.model import InputError
+from solver.errors import InputError
 
 MAX_DEPTH = 8
 MAX_CURVE_POINTS = 500_000

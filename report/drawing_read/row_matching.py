@@ -26,7 +26,7 @@ from report.project.model.input_rows import InputRow, Inputs
 from report.project.model.roof import DRAWING
 from report.project.model.shapes import Shape, around, gap_m, mean, sides, solid
 from report.text.units import Quantity, Unit
-from solver.model import InputError
+from solver.errors import InputError
 
 # Common share of two outlines, of all that either covers, by which they may be the same.
 _LEAST_SHARE = 0.05

@@ -23,8 +23,8 @@ from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.unseen import Unseen
 from report.text.units import G_MPS2
+from solver.errors import InputError
 from solver.formats import read_motion_file
-from solver.model import InputError
 from solver.records.processing import Processing, process, process_together
 from solver.records.record import Record, has_gravity
 

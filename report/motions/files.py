@@ -21,8 +21,8 @@ from report.project.read.archive import OpenBook
 from report.project.read.linked_files import path_beside
 from report.project.read.positions import CellPosition
 from report.project.read.unseen import Unseen, unseen
+from solver.errors import InputError
 from solver.formats import MotionFile, read_motion_file
-from solver.model import InputError
 from solver.records.record import Record
 
 MAX_BYTES = 64_000_000

@@ -16,10 +16,10 @@ import numpy as np
 from report.project.read.archive import OpenBook
 from report.project.read.cells import CellError, Found, check_saved, number
 from report.project.read.positions import MAX_COLUMNS, CellPosition, cells_below, found_at
+from solver.errors import InputError, Problem
 from solver.formats.phrases import Heading, Kind, is_spectral, parse
 from solver.formats.source import Source
 from solver.formats.times import sampled
-from solver.model import InputError, Problem
 from solver.records.record import Record, check_peak, record_from_values, unit_size
 
 HEADING_ROWS = 10

@@ -17,8 +17,8 @@ from pathlib import Path, PurePosixPath
 from report.motions.files import BAR, MAX_BYTES
 from report.motions.stored import MOST_FILES
 from report.text.aligned import aligned
+from solver.errors import InputError
 from solver.formats import MotionFile, read_motion_file
-from solver.model import InputError
 
 # Of an ID.
 MOST_NAME = 40

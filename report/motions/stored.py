@@ -14,8 +14,8 @@ from typing import IO
 
 from report.project.read.archive import zip_of
 from report.project.write.filled import BEFORE
-from solver.files import printable, read_file, within
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import printable, read_file, within
 
 MB = 1_000_000
 MOST_SENT = 100 * MB

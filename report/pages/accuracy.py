@@ -28,7 +28,8 @@ from report.text.letter_case import lowered
 from report.text.names import named, ranged
 from report.text.unit_format import NO_VALUE, UnitFormat
 from report.text.units import NO_BREAK, number
-from solver.model import DefectError, Status
+from solver.errors import DefectError
+from solver.model import Status
 from solver.rules.provisions import Neighbor
 from solver.sliding.model_selection import Model
 

@@ -18,7 +18,7 @@ from pypdf import PageObject, PdfReader
 from pypdf.generic import ArrayObject, DictionaryObject, IndirectObject, StreamObject
 
 from report.typeset.finish import FIELD
-from solver.model import InputError
+from solver.errors import InputError
 
 _T = TypeVar("_T")
 

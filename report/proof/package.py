@@ -28,8 +28,8 @@ from report.proof.signatures import Appended, Signature, appended
 from report.provenance.known_errors import KnownError
 from report.provenance.package_sources import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
 from report.provenance.release import version
-from solver.files import read_file, within
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import read_file, within
 from solver.suggestions import meant
 
 _T = TypeVar("_T")

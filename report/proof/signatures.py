@@ -21,7 +21,7 @@ from pypdf.generic import ArrayObject, DictionaryObject, PdfObject, StreamObject
 from report.proof.contents import guarded
 from report.typeset.finish import FIELD
 from report.typeset.pdf import TEMPLATES
-from solver.model import InputError
+from solver.errors import InputError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

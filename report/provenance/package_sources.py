@@ -27,7 +27,7 @@ from report.motions.prepare import Shaking
 from report.project.read.workbook_data import Sheet
 from report.provenance.release import version
 from report.typeset.finish import Attached
-from solver.model import InputError
+from solver.errors import InputError
 
 # Those that numbers, pages or the bytes of the file come from; not tools and servers.
 _LIBRARIES = (

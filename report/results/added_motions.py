@@ -28,8 +28,8 @@ from report.project.read.read import read
 from report.project.read.workbook_data import Sheet
 from report.project.write.filled import BEFORE, WorkbookChange, changing
 from report.results.publish import STAMP, content, stamp
-from solver.files import check_plain
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
+from solver.file_checks import check_plain
 
 if TYPE_CHECKING:
     from report.motions.sets import Sets

@@ -1,6 +1,6 @@
 """Writes finished files to a folder as one set, with a stamp that tells a set that was cut off.
 
-Read `publish` first; `solver.files` writes.
+Read `publish` first; `solver.file_writing` writes.
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from tempfile import TemporaryFile
 
 from pydantic_core import from_json
 
-from solver.files import add_folder, check_plain, locked, read_file, within, write_all
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import check_plain, read_file, within
+from solver.file_writing import add_folder, locked, write_all
 
 PAGE = "calc-package.html"
 OUTPUTS = ("calc-package.pdf", PAGE, "plan.dxf", "results.xlsx", "results.json")

@@ -20,8 +20,8 @@ from report.results.rows import results
 from report.text.json_numbers import finite
 from report.text.typed_letters import UNPRINTABLE, cut
 from report.typeset.letters import named, undrawable
-from solver.files import read_file
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import read_file
 from solver.suggestions import meant
 
 

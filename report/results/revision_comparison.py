@@ -26,7 +26,7 @@ from report.results.results_model import ArrayResult, ClearanceResult, Compared,
 from report.results.rows import compared
 from report.text.unit_format import UnitFormat
 from report.text.units import in_us_order, no_less, ratio
-from solver.model import InputError
+from solver.errors import InputError
 
 # Most changes that the package lists, and most letters of them all.
 MOST_CHANGES, MOST_LETTERS = 2_000, 400_000

@@ -11,7 +11,7 @@ from typing import Any
 from report.study.manifest import program, version_differences
 from report.study.optional_packages import DASK, optional_package
 from report.study.parquet_parts import OnDone, keep, made_part, mixed
-from solver.model import InputError
+from solver.errors import InputError
 from solver.studies.runs import Campaign, Runner
 
 TIMEOUT_S = 10.0

@@ -20,7 +20,8 @@ import solver
 from report.provenance.package_sources import installed, processor
 from report.provenance.release import version
 from report.text.units import G_MPS2
-from solver.model import InputError, Motion
+from solver.errors import InputError
+from solver.model import Motion
 from solver.studies.runs import SETTINGS, Campaign
 
 # Raised where a key of the manifest or a column of the parts changes its name or meaning.

@@ -6,7 +6,7 @@ import importlib
 import sys
 from typing import Any
 
-from solver.model import InputError
+from solver.errors import InputError
 
 ARROW = "pyarrow.parquet"
 DASK = "distributed"

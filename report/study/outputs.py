@@ -23,7 +23,8 @@ from report.study.study_results import StudyResults
 from report.study.study_tables import curves_csv, study_xlsx
 from report.study.wording import context, headline
 from report.typeset.pdf import TEMPLATES, lay_out
-from solver.files import add_folder, check_plain, locked
+from solver.file_checks import check_plain
+from solver.file_writing import add_folder, locked
 
 TABLE = "study.xlsx"
 

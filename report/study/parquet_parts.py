@@ -25,9 +25,11 @@ from pydantic import TypeAdapter
 
 from report.study.manifest import NAME, machine
 from report.study.optional_packages import ARROW, optional_package
-from solver.files import check_plain, write_all
+from solver.errors import InputError
+from solver.file_checks import check_plain
+from solver.file_writing import write_all
 from solver.kernels.compiler import THREADS
-from solver.model import Floats, InputError
+from solver.model import Floats
 from solver.sliding.model_selection import Model
 from solver.studies.runs import LENGTHS, STATUSES, Campaign, Rows, Runner, run_part
 

@@ -30,8 +30,8 @@ from report.study.study_input import (
     values,
 )
 from report.study.workbook import HAZARD, STUDY, STUDY_SECTIONS
-from solver.files import write_whole
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_writing import write_whole
 
 HOW = (
     f"give numbers that increase, at most {MOST_VALUES}, with a blank after each comma, such as"

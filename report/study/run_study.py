@@ -28,7 +28,7 @@ from report.study.study_plan import StudyPlan, plan_study
 from report.study.study_results import StudyResults, results_of
 from report.study.user_key import user_key
 from report.text.counts import numbered
-from solver.files import write_all
+from solver.file_writing import write_all
 
 # Folder of the parts, in the folder of the outputs.
 RUNS = "runs"

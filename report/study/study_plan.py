@@ -31,7 +31,8 @@ from report.study.study_input import (
     StudyInput,
 )
 from report.study.study_motions import StudyMotions
-from solver.model import Floats, InputError
+from solver.errors import InputError
+from solver.model import Floats
 from solver.rules.provisions import (
     RULE_SETS,
     Basis,

@@ -22,7 +22,8 @@ from report.study.study_input import NoValue
 from report.study.study_plan import ArrayPlan, StudyPlan
 from report.study.years import ArrayYears, years_of
 from report.text.units import G_MPS2, round_down, round_up
-from solver.model import Floats, InputError
+from solver.errors import InputError
+from solver.model import Floats
 from solver.studies.curves import Fit, Statistics, first_allowed, fit_prd, statistics
 from solver.studies.fragility import Fragility, fragility
 from solver.studies.runs import Runner

@@ -9,7 +9,7 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from solver.model import InputError
+from solver.errors import InputError
 
 KEY_BYTES = 32
 

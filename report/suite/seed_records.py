@@ -10,8 +10,8 @@ from functools import cache
 from pathlib import Path
 
 from report.motions.sets import VERTICAL
+from solver.errors import InputError
 from solver.formats import MotionFile, read_motion_file
-from solver.model import InputError
 from solver.records.record import Record
 
 

@@ -8,7 +8,7 @@ from report.project.model.place import Place
 from report.project.model.site import site_parameters
 from report.project.read.workbook_data import Sheet
 from report.suite.targets import CODES, SuiteTargets, ac156_targets
-from solver.model import InputError
+from solver.errors import InputError
 
 _CODE_OF = {name: code for code, name in CODES.items()}
 

@@ -31,7 +31,8 @@ from report.suite.suite_components import (
     suite_components,
 )
 from report.suite.targets import SuiteTargets
-from solver.model import Floats, InputError
+from solver.errors import InputError
+from solver.model import Floats
 from solver.records.record import record_csv
 from solver.rules.hazard import Target, target_sa_g
 from solver.synthesis.matching import BAND_HZ, spectrum_fit

@@ -20,9 +20,10 @@ from report.project.read.cells import CellError, Found, check_saved, number
 from report.project.read.positions import CellPosition, found_at
 from report.project.read.typed_text import separator, with_point
 from solver.bounds import ORDINATE, PhysicalBounds
+from solver.errors import InputError, Problem
 from solver.formats.phrases import is_of_another
 from solver.formats.source import open_source
-from solver.model import Floats, InputError, Problem
+from solver.model import Floats
 from solver.suggestions import meant
 from solver.synthesis.matching import BAND_HZ
 

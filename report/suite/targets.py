@@ -10,7 +10,7 @@ from typing import Any
 from report.project.check.motion_faults import GENERATED
 from report.project.read.typed_text import choice_in
 from report.suite.target_table import TargetTable
-from solver.model import InputError
+from solver.errors import InputError
 from solver.rules.hazard import (
     EDITIONS,
     RequiredSpectrum,

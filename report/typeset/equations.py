@@ -12,7 +12,7 @@ from typing import TypedDict
 
 from markupsafe import Markup, escape
 
-from solver.model import DefectError
+from solver.errors import DefectError
 
 SIZE_PT = 11.0
 # Of a page 482 pt wide: a wider formula leaves no room for its numbers beside it.

@@ -12,7 +12,7 @@ from functools import cache
 
 from report.libraries import has_font_on_windows
 from report.project.read.workbook_data import Sheet
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 _LISTED = 5
 

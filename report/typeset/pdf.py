@@ -20,7 +20,7 @@ from xml.etree import ElementTree
 
 from report.libraries import load_renderer
 from report.typeset.finish import Attached, finish
-from solver.model import DefectError
+from solver.errors import DefectError
 
 _HERE = Path(__file__).resolve().parents[1]
 # In a wheel the folder is inside the package, in a checkout beside it.

@@ -36,7 +36,7 @@ from report.web.session import (
     session_of,
 )
 from report.web.worker import FULL, copied, is_full
-from solver.model import InputError
+from solver.errors import InputError
 
 _HERE = Path(__file__).resolve().parent
 STATIC = _HERE / "static"

@@ -21,8 +21,9 @@ from report.text.names import ranged
 from report.text.typed_letters import cut
 from report.text.units import Quantity, no_more, number, pair
 from report.web.values import MUS, UNITS_FIRST, Values, typed
+from solver.errors import InputError
 from solver.friction_tests import MOST_MU
-from solver.model import INCH_M, InputError, Motion
+from solver.model import INCH_M, Motion
 
 if TYPE_CHECKING:
     from report.web.open_project import OpenProject

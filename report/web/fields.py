@@ -22,7 +22,7 @@ from report.project.read.positions import CellPosition, found_at
 from report.project.workbook import SECTIONS
 from report.project.workbook.sections import SheetSection
 from report.text.typed_letters import cut
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 _MOST_COLUMNS, _BESIDE = 40, 2  # of a sheet that are read, and of those the ones around a cell
 

@@ -23,7 +23,7 @@ from report.motions.stored import MB, MOST_FILES, MOST_SENT, store
 from report.results.publish import OUTPUTS
 from report.web.session import Asked, RefusedError, session_of
 from report.web.worker import PROJECT, TYPES, Package, State, copied, motions_made
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def is_alone(workbook: Path, folder: Path) -> bool:

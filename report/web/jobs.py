@@ -38,7 +38,7 @@ from report.web.fields import problems, tables, typed_cells
 from report.web.open_project import OpenProject, open_project, reference_of
 from report.web.plan import USUAL_PX, stamp
 from report.web.worker import INTERNAL, is_full
-from solver.model import InputError
+from solver.errors import InputError
 
 KEPT_PROJECTS = 3
 """Projects that a process keeps, with their assessments."""

@@ -90,7 +90,7 @@ class WorkerProcess(Executor):
                 self._told(value)
                 kind, value = self._message()
         except (EOFError, ConnectionError) as error:
-            from solver.model import DefectError  # slow to import: the process starts before it
+            from solver.errors import DefectError  # slow to import: the process starts before it
 
             self._process.join()
             raise DefectError(

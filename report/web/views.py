@@ -26,7 +26,8 @@ from report.text.unit_format import UnitFormat
 from report.text.units import Unit, no_less, number
 from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
-from solver.model import Floats, InputError, Scene, SlideHistory, Status
+from solver.errors import InputError
+from solver.model import Floats, Scene, SlideHistory, Status
 from solver.records.measures import velocity_displacement
 from solver.records.record import Record
 from solver.sliding import model_selection

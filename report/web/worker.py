@@ -93,7 +93,7 @@ def _failure(do: Callable[[], object]) -> str:
     try:
         do()
     except Exception as error:
-        from solver.model import InputError
+        from solver.errors import InputError
 
         # An error in words has the one of the system as its cause.
         if is_full(error) or is_full(error.__cause__):

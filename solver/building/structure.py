@@ -14,7 +14,8 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.model import Floats, InputError
+from solver.errors import InputError
+from solver.model import Floats
 from solver.records.record import raise_any, read_only
 
 # Largest finite lateral stiffness ratio; infinity is the shear beam.

@@ -13,9 +13,10 @@ from contextlib import suppress
 import numpy as np
 
 from solver.bounds import TIME_STEP
+from solver.errors import InputError
 from solver.formats.record_file import MotionFile, distinct
 from solver.formats.source import Source, Stated
-from solver.model import Floats, InputError
+from solver.model import Floats
 from solver.records.record import UNITS, Record, check_gaps, check_peak, has_gravity, own, shown
 
 MAX_CHANNELS = 1000

@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
+from solver.errors import InputError
 from solver.formats import phrases
 from solver.formats.likely_kinds import COLUMNS, likely_text
 from solver.formats.numbers import NUMBER
@@ -20,7 +21,6 @@ from solver.formats.phrases import Heading, parse
 from solver.formats.plain_lines import plain_lines
 from solver.formats.rows import Row, content_of, first_row, is_heading, rows_of, separator_of
 from solver.formats.source import Source, Stated
-from solver.model import InputError
 from solver.records.record import shown, unit_size
 
 _MAX_REMARKS = 200

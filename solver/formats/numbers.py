@@ -19,8 +19,9 @@ from typing import TypeVar
 
 import numpy as np
 
+from solver.errors import InputError
 from solver.formats.source import Source, Stated
-from solver.model import Floats, InputError
+from solver.model import Floats
 from solver.records.record import BEYOND, is_finite_number, raise_any, shown
 
 # ASCII alone: float would take the digits of other scripts as well.

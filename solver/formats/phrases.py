@@ -13,9 +13,9 @@ import re
 from dataclasses import dataclass, replace
 from enum import Enum
 
+from solver.errors import InputError
 from solver.formats.numbers import printed
 from solver.formats.source import Source, Stated
-from solver.model import InputError
 from solver.records.record import is_other_unit, is_raw, unit_size
 
 # Also as loggers of other languages head them.

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from solver.model import InputError
+from solver.errors import InputError
 from solver.records.record import Record, shown
 from solver.suggestions import nearest
 

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from solver.bounds import SENSITIVITY
-from solver.files import check_length, read_file
+from solver.errors import InputError, Problem
+from solver.file_checks import check_length, read_file
 from solver.formats.likely_kinds import LOOKED_AT, likely_bytes, likely_text
-from solver.model import InputError, Problem
 from solver.records.record import (
     UNIT_CHOICES,
     is_finite_number,

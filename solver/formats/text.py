@@ -14,6 +14,7 @@ from itertools import chain, islice
 
 import numpy as np
 
+from solver.errors import InputError, Problem
 from solver.formats import phrases
 from solver.formats.channels import motion_file
 from solver.formats.columns import SIDE_BY_SIDE, magnitudes, pairs, remedy, rising
@@ -32,7 +33,7 @@ from solver.formats.record_file import MotionFile
 from solver.formats.rows import content_of
 from solver.formats.source import Source
 from solver.formats.times import Even, is_even, sampled
-from solver.model import Floats, InputError, Problem
+from solver.model import Floats
 from solver.records.record import BEYOND, HOLD, Record, raise_any, shown
 
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)

@@ -14,8 +14,9 @@ from itertools import product
 
 import numpy as np
 
+from solver.errors import InputError, Problem
 from solver.formats.source import Source, Stated
-from solver.model import Floats, InputError, Problem
+from solver.model import Floats
 from solver.records.record import fits, raise_any
 
 # Largest total number of samples in the columns of a file after resampling.

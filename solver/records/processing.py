@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.model import Floats, InputError
+from solver.errors import InputError
+from solver.model import Floats
 from solver.records.record import Record, own, raise_any
 
 MAX_DEGREE = 8

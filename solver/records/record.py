@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver.bounds import PEAK
-from solver.files import write_whole
-from solver.model import INCH_M, STANDARD_GRAVITY_MPS2, Floats, InputError
+from solver.errors import InputError
+from solver.file_writing import write_whole
+from solver.model import INCH_M, STANDARD_GRAVITY_MPS2, Floats
 
 _ALONE = 3.0  # a code for missing data / all other samples, at least: shaking rises over several
 _CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")

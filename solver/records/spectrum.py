@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from solver.model import Floats, InputError, Motion
+from solver.errors import InputError
+from solver.model import Floats, Motion
 from solver.records.record import UNITS, Record, raise_any, read_only
 
 if TYPE_CHECKING:

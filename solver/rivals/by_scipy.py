@@ -16,8 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from solver.errors import InputError
 from solver.kernels import rivals, runge_kutta
-from solver.model import Floats, InputError
+from solver.model import Floats
 
 # Tolerances of the time of an event [s]; those that SciPy has unless told cost five digits.
 _NEAR = {"xtol": 1e-18, "rtol": 1e-15}

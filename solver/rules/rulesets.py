@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 
-from solver.model import INCH_M, InputError
+from solver.errors import InputError
+from solver.model import INCH_M
 
 
 class Confidence(StrEnum):

@@ -16,8 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from solver.errors import InputError
 from solver.formats.phrases import parse
-from solver.model import Floats, Friction, InputError, Motion, Scene, coulomb
+from solver.model import Floats, Friction, Motion, Scene, coulomb
 from solver.records.record import NO_RECORD, UNITS, Record, has_gravity, raise_any, read_only
 from solver.records.record import unit_size as records_unit
 from solver.sliding import two_axes

@@ -10,15 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.model import (
-    STANDARD_GRAVITY_MPS2,
-    Friction,
-    InputError,
-    Motion,
-    Scene,
-    SlideHistory,
-    SlideResult,
-)
+from solver.errors import InputError
+from solver.model import STANDARD_GRAVITY_MPS2, Friction, Motion, Scene, SlideHistory, SlideResult
 from solver.records.record import Record
 from solver.sliding import model_selection, one_axis, two_axes
 from solver.sliding.arguments import Given, GivenShaking, method_of, scene_of, shown

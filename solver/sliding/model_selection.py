@@ -13,9 +13,10 @@ from enum import IntEnum
 from functools import cached_property, partial
 from itertools import product
 
+from solver.errors import InputError
 from solver.forces import components, friction_demand
 from solver.kernels import cross_slope as kernel
-from solver.model import InputError, Scene, SlideHistory, SlideResult, Status, coulomb
+from solver.model import Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.records.record import NO_RECORD
 from solver.sliding import one_axis, two_axes
 from solver.sliding.one_axis import RecordBounds, bounds_of

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from solver.model import Floats, InputError
+from solver.errors import InputError
+from solver.model import Floats
 
 PERCENTILE = 84.0
 

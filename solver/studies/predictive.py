@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.special import fdtrc, stdtrit
 
+from solver.errors import InputError
 from solver.friction_tests import Series
-from solver.model import InputError
 
 # Of the predictive distribution, the middles of five equal probabilities.
 QUANTILES = (0.1, 0.3, 0.5, 0.7, 0.9)

@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from solver.errors import InputError
 from solver.kernels.compiler import THREADS
-from solver.model import Floats, InputError, Motion, Status
+from solver.model import Floats, Motion, Status
 from solver.records.record import Record
 from solver.sliding.checked import motion
 from solver.sliding.model_selection import Model

@@ -12,7 +12,8 @@ from statistics import NormalDist
 
 import numpy as np
 
-from solver.model import Floats, InputError
+from solver.errors import InputError
+from solver.model import Floats
 
 _NORMAL = NormalDist()
 

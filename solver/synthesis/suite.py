@@ -15,8 +15,9 @@ from itertools import chain, combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.errors import InputError
 from solver.kernels.compiler import THREADS
-from solver.model import Floats, InputError
+from solver.model import Floats
 from solver.records.acceptance import MOST_CORRELATION
 from solver.records.measures import correlation, strength
 from solver.records.record import Record

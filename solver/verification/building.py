@@ -30,8 +30,9 @@ from solver.building.structure import (
     building_of_modes,
     building_of_periods,
 )
+from solver.errors import InputError
 from solver.formats import read_record
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, InputError
+from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide
 from solver.verification.evidence import RoofComparison, RoofPrediction

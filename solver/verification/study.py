@@ -19,6 +19,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
+from solver.errors import InputError
 from solver.forces import forces
 from solver.formats import read_motion_file
 from solver.model import (
@@ -26,7 +27,6 @@ from solver.model import (
     Floats,
     Friction,
     HorizontalComponent,
-    InputError,
     Motion,
     Orientation,
     Scene,

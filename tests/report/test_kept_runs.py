@@ -8,7 +8,7 @@ import pytest
 from fixtures import assessments, projects
 from report import runs as module
 from report.runs import Runs, largest_two, run_motion
-from solver.model import DefectError
+from solver.errors import DefectError
 
 MOTIONS = assessments.motions(2, 6.0)
 COUNT = sum(len(motion.orientations) for motion in MOTIONS)

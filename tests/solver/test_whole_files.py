@@ -15,8 +15,9 @@ from fixtures.folders import LINKS, PIPES, SENTENCES, not_on_windows, occupied
 from fixtures.growth import grows_faster
 from fixtures.paths import ROOT
 from report.cli.main import main
-from solver.files import LOCK, locked, within, write_all, write_whole
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import within
+from solver.file_writing import LOCK, locked, write_all, write_whole
 from solver.suggestions import meant, nearest
 
 pytestmark = pytest.mark.quick
@@ -119,7 +120,7 @@ def test_of_a_set_that_cannot_be_written_nothing_is(tmp_path, monkeypatch, name,
 
     if not has_links:
         monkeypatch.setattr(os, "link", refused)
-    monkeypatch.setattr("solver.files.PAUSES_S", ())
+    monkeypatch.setattr("solver.file_writing.PAUSES_S", ())
     monkeypatch.setattr(os, "replace", renamed)
     told = "cannot be written .*not permitted.*in other programs. No file was changed"
     with pytest.raises(InputError, match=f"{in_any(name)}: {told}"):
@@ -137,14 +138,14 @@ def test_a_file_that_is_open_elsewhere_for_a_moment_is_replaced(path, monkeypatc
             refused()  # as Windows does to open files
         rename(source, target)
 
-    monkeypatch.setattr("solver.files.PAUSES_S", (0.0, 0.0))
+    monkeypatch.setattr("solver.file_writing.PAUSES_S", (0.0, 0.0))
     monkeypatch.setattr(os, "replace", renamed)
     write_whole(path, b"new")
     assert path.read_bytes() == b"new"
 
 
 def test_a_second_process_waits_for_the_first_and_then_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("solver.files.WAIT_S", 0.2)
+    monkeypatch.setattr("solver.file_writing.WAIT_S", 0.2)
     with locked(tmp_path):
         with pytest.raises(InputError, match=r"another command has been writing there for 0\.2 s"):
             locked(tmp_path).__enter__()
@@ -159,7 +160,7 @@ def test_a_second_process_waits_for_the_first_and_then_says_so(tmp_path, monkeyp
 @contextmanager
 def locked_elsewhere(folder):
     """A process that takes the lock of a folder once it can."""
-    script = "import sys; from pathlib import Path; from solver.files import locked\n"
+    script = "import sys; from pathlib import Path; from solver.file_writing import locked\n"
     script += "print(flush=True)\nwith locked(Path(sys.argv[1])): print(flush=True)"
     command = [sys.executable, "-c", script, str(folder)]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE) as child:

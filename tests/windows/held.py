@@ -15,7 +15,7 @@ from report.project.read.read import read
 from report.project.write.filled import changing
 from report.results.publish import publish
 from report.typeset.letters import undrawable
-from solver.model import InputError
+from solver.errors import InputError
 
 KERNEL = ctypes.windll.kernel32
 KERNEL.CreateFileW.restype = ctypes.c_void_p

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from solver.model import Problem
+from solver.errors import Problem
 
 # Cells and ids named of equal errors and findings.
 MOST_LISTED = 3

@@ -12,8 +12,9 @@ from report.project.model.choices import Id, NotNegative, Positive, RequiredText
 from report.project.model.input_rows import InputRow
 from report.project.model.placed import Placed
 from report.project.model.shapes import Shape
+from solver.errors import DefectError
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
-from solver.model import DefectError, Friction
+from solver.model import Friction
 
 ImportanceCell = Annotated[float, Field(ge=1.0, le=1.5)]
 MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from report.project.model.place import Place
-from solver.model import Problem
+from solver.errors import Problem
 
 
 class Level(StrEnum):

@@ -21,7 +21,7 @@ from report.project.model.choices import (
 )
 from report.project.model.frozen import Frozen
 from report.project.model.input_rows import InputRow
-from solver.model import DefectError
+from solver.errors import DefectError
 from solver.rules.hazard import (
     EDITIONS,
     LEAST_I_E,

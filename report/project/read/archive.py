@@ -25,8 +25,8 @@ from openpyxl import LXML, Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.project.read.scan import REOPEN, Scan, UsedRange, scan_parts
-from solver.files import check_length, read_file
-from solver.model import DefectError, InputError
+from solver.errors import DefectError, InputError
+from solver.file_checks import check_length, read_file
 from solver.suggestions import meant
 
 MB = 1_000_000

@@ -30,7 +30,8 @@ from report.project.read.typed_text import (
 from report.project.workbook.entries import Entry
 from report.text.typed_letters import SHOWN, UNPRINTABLE, cut, trimmed
 from report.text.units import LENGTHS
-from solver.model import INCH_M, InputError, Problem
+from solver.errors import InputError, Problem
+from solver.model import INCH_M
 
 _WITH_UNIT = re.compile(
     r"[+-]?[0-9]+(?:\.[0-9]*)?\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"

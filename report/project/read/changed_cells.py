@@ -21,7 +21,7 @@ from report.project.read.archive import sheet_parts
 from report.project.read.cells import escaped
 from report.project.read.positions import CellPosition
 from report.project.read.scan import REOPEN
-from solver.model import InputError
+from solver.errors import InputError
 
 
 class Formula(str):

@@ -16,8 +16,8 @@ from report.project.read.linked_files import path_beside
 from report.project.read.study_years import YEARS, StudyYears
 from report.project.workbook import SECTION
 from report.project.workbook.entries import Entry
-from solver.files import read_file
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import read_file
 
 # Bytes of all documents that a workbook attaches.
 MAX_DOCUMENTS = 20_000_000

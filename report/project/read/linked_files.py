@@ -8,8 +8,8 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from unicodedata import normalize
 
 from report.text.grouping import grouped_by
-from solver.files import check_length
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import check_length
 from solver.suggestions import nearest
 
 # Files among which one is sought whose name nearly fits, and names that are taken.

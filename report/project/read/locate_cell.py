@@ -23,7 +23,7 @@ from report.project.read.positions import (
 from report.project.workbook.earlier_workbooks import GONE, GoneInput
 from report.project.workbook.entries import Entry
 from report.project.workbook.sections import SheetSection
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:

@@ -30,7 +30,7 @@ from report.project.workbook import SECTIONS
 from report.project.workbook.answers import ANSWER_HEADINGS
 from report.project.workbook.earlier_workbooks import GONE, GoneInput
 from report.project.workbook.sections import SheetSection
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 MAX_ROWS = 2000
 

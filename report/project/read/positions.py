@@ -21,7 +21,7 @@ from report.project.read.cells import Found
 from report.project.read.scan import LAST_COLUMN, LAST_ROW
 from report.project.workbook.entries import Entry
 from report.project.workbook.sections import SheetSection
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 MAX_COLUMNS = 200
 SCANNED_ROWS = 200

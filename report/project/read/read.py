@@ -58,7 +58,7 @@ from report.project.workbook.sections import SheetSection
 from report.text.command_line import quoted
 from report.text.letter_case import lowered
 from report.text.typed_letters import cut, trimmed
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 # Sheet of a workbook that `roofslip study` reads.
 _STUDY = "Study"

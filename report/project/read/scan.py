@@ -18,7 +18,7 @@ from defusedxml import DefusedXmlException
 from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple, get_column_letter, range_boundaries
 
-from solver.model import InputError
+from solver.errors import InputError
 
 REOPEN = "open it in Excel or LibreOffice and save it again"
 

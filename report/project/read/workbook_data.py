@@ -20,7 +20,7 @@ from report.project.read.archive import OpenBook
 from report.project.read.documents import Document
 from report.project.read.unseen import Unseen
 from report.project.workbook.sections import SheetSection
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

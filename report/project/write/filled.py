@@ -30,8 +30,9 @@ from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTION, SECTIONS
 from report.project.write.style import is_answer
 from report.text.grouping import grouped_by
-from solver.files import check_plain, locked, write_all
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_checks import check_plain
+from solver.file_writing import locked, write_all
 
 # Ends the name under which a workbook is kept as it was before the last command changed it.
 BEFORE = ".before.xlsx"

@@ -21,7 +21,7 @@ from report.project.write.grids import write_answers, write_block, write_table
 from report.project.write.lookups import write_lookups
 from report.project.write.provisions_sheet import write_rules
 from report.project.write.start_sheet import RARE, START, write_start
-from solver.files import write_whole
+from solver.file_writing import write_whole
 
 
 def write_template(path: Path, *, units: UnitsFirst, example: ProjectInput | None = None) -> None:

@@ -16,6 +16,7 @@ from functools import partial
 
 import numpy as np
 
+from solver.errors import InputError
 from solver.formats import channels
 from solver.formats.numbers import (
     Block,
@@ -30,7 +31,6 @@ from solver.formats.numbers import (
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import round_step, sampled
-from solver.model import InputError
 from solver.records.record import Record, unit_size
 
 # Source: A.F. Shakal and M.J. Huang, Standard tape format for CSMIP strong-motion data tapes,

@@ -11,11 +11,11 @@ import re
 from collections.abc import Sequence
 from functools import partial
 
+from solver.errors import InputError
 from solver.formats import channels
 from solver.formats.numbers import Block, FieldFormat, each, fixed_values, header_values, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
-from solver.model import InputError
 from solver.records.record import Record
 
 # Source: GeoNet, Strong motion file formats, geonet.org.nz/data/supplementary/

@@ -15,6 +15,7 @@ from itertools import chain
 
 import numpy as np
 
+from solver.errors import InputError
 from solver.formats import phrases
 from solver.formats.channels import (
     centered_peak_notes,
@@ -28,7 +29,7 @@ from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
-from solver.model import Floats, InputError
+from solver.model import Floats
 from solver.records.record import Record, raise_any, shown, unit_size
 
 # Source: INGV, DYNA 1.0 and 1.2, the heading of the Engineering Strong-Motion database, esm-db.eu,

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 
+from solver.errors import InputError
 from solver.formats.channels import (
     centered_peak_notes,
     motion_file,
@@ -20,7 +21,7 @@ from solver.formats.numbers import COMPARED, Block, check_last, dated_table, fre
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
-from solver.model import Floats, InputError
+from solver.model import Floats
 from solver.records.record import Record, shown
 
 # Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and

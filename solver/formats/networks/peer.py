@@ -13,12 +13,12 @@ import itertools
 import re
 from collections.abc import Sequence
 
+from solver.errors import InputError
 from solver.formats import phrases
 from solver.formats.channels import motion_file
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source
-from solver.model import InputError
 from solver.records.record import Record, shown
 
 # Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there

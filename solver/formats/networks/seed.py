@@ -17,12 +17,13 @@ from typing import Any
 import numpy as np
 
 from solver.bounds import SENSITIVITY
-from solver.files import read_file
+from solver.errors import InputError
+from solver.file_checks import read_file
 from solver.formats.channels import motion_file, offset_notes
 from solver.formats.record_file import MotionFile
 from solver.formats.source import MAX_BYTES, Source, Stated, waveform_format
 from solver.formats.times import round_step
-from solver.model import Floats, InputError
+from solver.model import Floats
 from solver.records.record import Record, shown, unit_size
 
 # Source: SEED reference manual, version 2.4 (data records); SAC manual, data file format (IDEP: 6

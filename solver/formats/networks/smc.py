@@ -14,12 +14,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from solver.errors import InputError
 from solver.formats.channels import motion_file, offset_notes, peak_notes
 from solver.formats.numbers import Block, FieldFormat, fixed_rows, fixed_values, header_values
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
-from solver.model import InputError
 from solver.records.record import Record
 
 # Source: U.S. Geological Survey, National Strong-Motion Program, SMC- and BBF-format data files,

@@ -18,7 +18,8 @@ from report.assessment.design.verdict import Verdict
 from report.assessment.support.evidence import support
 from report.project.model.choices import Direction
 from report.runs import motion_run
-from solver.model import InputError, Status
+from solver.errors import InputError
+from solver.model import Status
 from solver.rules.provisions import Basis
 from solver.sliding import model_selection
 from solver.sliding.model_selection import Model

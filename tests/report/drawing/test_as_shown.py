@@ -9,7 +9,7 @@ from fixtures.marks import by_day
 from fixtures.workbooks import blank
 from report.drawing_read.read_dxf import read_dxf
 from report.project.model.choices import UnitsFirst
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def reasons(found):

@@ -21,7 +21,7 @@ from report.drawing_read.dxf_file import MAX_ENTITIES, MAX_VALUES
 from report.drawing_read.read_dxf import MAX_LETTERS, read_dxf
 from report.project.model.choices import LayerKind
 from report.project.read.read import read
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def hostile(file, content):

@@ -18,7 +18,7 @@ from report.drawing_read.read_dxf import read_dxf
 from report.project.model.choices import LayerKind
 from report.project.model.shapes import Rectangle
 from report.project.read.read import read
-from solver.model import InputError
+from solver.errors import InputError
 
 pytestmark = pytest.mark.quick
 

@@ -17,7 +17,7 @@ from report.project.model.choices import UnitsFirst
 from report.project.model.placed import SIDES
 from report.project.model.shapes import Polygon
 from report.project.read.read import read
-from solver.model import InputError
+from solver.errors import InputError
 
 ROOFS = (
     ((0, 0), (60, 0), (60, 45), (0, 45)),

@@ -22,7 +22,7 @@ from report.project.model.choices import ClearanceSource, LayerKind, UnitsFirst
 from report.project.model.placed import SIDES
 from report.project.model.shapes import Polygon, Rectangle
 from report.project.read.read import read
-from solver.model import InputError
+from solver.errors import InputError
 
 SIZE_FT = (80, 40)
 

@@ -19,7 +19,7 @@ from report.manual.render import summary, verification_csv
 from report.text.error_text import percent
 from solver.building.roof import absolute_accelerations, roof_motion
 from solver.building.structure import beam_modes, building_of_periods
-from solver.model import InputError
+from solver.errors import InputError
 from solver.records.record import Record, write_record
 from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide

@@ -19,7 +19,7 @@ from fixtures.workbooks import (
     with_addresses,
 )
 from report.motions.sets import LENGTHS_WITHIN, STARTS_WITHIN, sets_of, table
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def peer(path, component, dt_s=0.01):

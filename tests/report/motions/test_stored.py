@@ -10,7 +10,7 @@ import pytest
 
 from fixtures.marks import by_day
 from report.motions.stored import store, unpack
-from solver.model import InputError
+from solver.errors import InputError
 
 pytestmark = pytest.mark.quick
 

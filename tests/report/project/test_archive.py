@@ -24,7 +24,7 @@ from fixtures.workbooks import (
 )
 from report.project.read.archive import open_book, sheet_parts
 from report.project.read.scan import MAX_CELLS, MAX_OTHERS, MAX_TAGS
-from solver.model import InputError
+from solver.errors import InputError
 
 SAVE_AS = "save it as .xlsx (Excel Workbook)"
 REOPEN = "open it in Excel or LibreOffice and save it again"

@@ -31,7 +31,7 @@ from report.project.model.finding import Level, note, warning
 from report.project.model.place import Place
 from report.project.read.read import read
 from report.web.jobs import problems as shown_problems
-from solver.model import InputError, Problem
+from solver.errors import InputError, Problem
 
 
 def warnings(data):

@@ -19,7 +19,7 @@ from report.project.read.positions import CellPosition
 from report.project.read.read import read
 from report.project.write import style
 from report.project.write.filled import WorkbookChange
-from solver.model import InputError
+from solver.errors import InputError
 
 DRAWING = b"<a/>"  # whatever it is, it stays
 

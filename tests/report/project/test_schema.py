@@ -30,7 +30,7 @@ from report.project.read.read import read
 from report.project.read.what_if import retyped
 from report.project.workbook import SECTIONS
 from report.study.workbook import STUDY_SECTIONS
-from solver.model import DefectError, InputError
+from solver.errors import DefectError, InputError
 from solver.rules.hazard import HazardBasis
 
 BARE_SITE = project_parts.SITE | {"rule_set": "ASCE 7-16", "s_1_g": None, "site_class": None}

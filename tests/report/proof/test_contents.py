@@ -8,7 +8,7 @@ from pypdf import PdfReader
 
 from fixtures.growth import grows_faster
 from report.proof.contents import differences, first_other_word, pages, parsed, refused, words
-from solver.model import InputError
+from solver.errors import InputError
 
 pytestmark = pytest.mark.quick
 

@@ -32,7 +32,7 @@ from report.proof.contents import refused
 from report.proof.package import compared, opened
 from report.proof.signatures import Appended, Signature, appended
 from report.typeset.finish import FIELD
-from solver.model import InputError
+from solver.errors import InputError
 
 PASSWORD = "pass word"
 CONFIG = """

@@ -20,7 +20,7 @@ from fixtures.paths import ROOT
 from fixtures.workbooks import type_into
 from report.proof.package import Agreement, compared, failed, opened, take_out
 from report.results.publish import OUTPUTS
-from solver.model import InputError
+from solver.errors import InputError
 
 RECORD = "records/RM1-x.csv"
 LETTER = ROOT / "projects" / "school" / "peer-review.pdf"

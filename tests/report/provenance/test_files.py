@@ -30,7 +30,7 @@ from report.provenance.package_sources import (
 from report.provenance.release import version
 from report.results.results_json import results_json
 from report.web.open_project import open_project
-from solver.model import InputError
+from solver.errors import InputError
 
 EXAMPLE = ROOT / "projects" / "example"
 
@@ -109,7 +109,7 @@ def replacing(monkeypatch, name):
             Path(path).write_bytes(OTHER)
         return file
 
-    monkeypatch.setattr("solver.files.open", opened, raising=False)
+    monkeypatch.setattr("solver.file_checks.open", opened, raising=False)
 
 
 OTHER = b"another file"

@@ -21,8 +21,8 @@ from report.results.publish import (
     publish,
     warn_if_mixed,
 )
-from solver.files import locked
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_writing import locked
 
 
 def names_in(folder):
@@ -206,7 +206,7 @@ def test_a_folder_that_cannot_be_made_is_refused_before_anything_is_computed(tmp
 
 
 def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("solver.files.WAIT_S", 0.2)
+    monkeypatch.setattr("solver.file_writing.WAIT_S", 0.2)
     words = "another command has been writing there for 0.2 s"
     with locked(tmp_path), pytest.raises(InputError, match=words):
         publish(OLD, tmp_path)
@@ -216,7 +216,7 @@ def test_a_run_waits_for_the_lock_of_another_and_then_says_so(tmp_path, monkeypa
 def test_the_lock_is_held_until_the_last_file_is_replaced(
     tmp_path, monkeypatch, before_each_replacement
 ):
-    monkeypatch.setattr("solver.files.WAIT_S", 0.0)
+    monkeypatch.setattr("solver.file_writing.WAIT_S", 0.0)
     held = []
 
     def another(_, target):

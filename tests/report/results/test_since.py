@@ -20,7 +20,7 @@ from report.pages.registry import package_data, parts
 from report.project.read.documents import Document
 from report.results.results_json import AGAIN, former_from, read_former, results_json
 from report.results.revision_comparison import MOST_CHANGES, changes, check_listed, with_reissue
-from solver.model import InputError
+from solver.errors import InputError
 
 
 def made(**project):

@@ -18,8 +18,8 @@ from report.study.outputs import make_study
 from report.study.run_study import planned, run_study
 from report.study.user_key import KEY_BYTES, state_folder, user_key
 from report.study.wording import headline
-from solver.files import LOCK, locked
-from solver.model import InputError
+from solver.errors import InputError
+from solver.file_writing import LOCK, locked
 
 
 @pytest.mark.quick
@@ -56,7 +56,7 @@ def test_a_study_does_not_replace_the_results_of_another_workbook(made, tmp_path
 
 
 def test_a_second_study_in_the_same_folder_waits_and_then_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("solver.files.WAIT_S", 0.1)
+    monkeypatch.setattr("solver.file_writing.WAIT_S", 0.1)
     folder = write(tmp_path, small())
     runs = folder / "out" / "study" / "runs"
     runs.mkdir(parents=True)

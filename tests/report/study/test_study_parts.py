@@ -29,7 +29,7 @@ from report.study.parquet_parts import (
     run_missing,
     signed,
 )
-from solver.model import InputError
+from solver.errors import InputError
 from solver.sliding.model_selection import Model
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 

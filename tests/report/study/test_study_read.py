@@ -50,8 +50,8 @@ from report.study.study_input import (
 )
 from report.study.years import RECURRENCES
 from report.typeset.pdf import lay_out
+from solver.errors import InputError
 from solver.friction_tests import Surface
-from solver.model import InputError
 from solver.studies.rates import exceedance_rates
 
 FOLDER = "<Study/Folder of motions>"

@@ -20,7 +20,7 @@ from report.results.publish import STAMP
 from report.suite.site_target import site_targets
 from report.suite.target_table import MAX_ROWS, read_target
 from report.suite.targets import ac156_targets
-from solver.model import InputError
+from solver.errors import InputError
 from solver.rules.hazard import Tail
 
 

@@ -19,8 +19,8 @@ from report.suite.suite_files import suite_files
 from report.suite.suite_table import suite_table
 from report.suite.targets import ac156_targets
 from report.text.units import G_MPS2
+from solver.errors import InputError
 from solver.formats import read_motion_file, read_record
-from solver.model import InputError
 from solver.records.spectrum import response_spectrum
 from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
 

@@ -14,7 +14,7 @@ from fixtures.workbooks import cell_address, make, type_into
 from report.typeset.equations import data_uri, formula, fraction, symbol
 from report.typeset.letters import undrawable
 from report.typeset.pdf import lay_out
-from solver.model import DefectError
+from solver.errors import DefectError
 
 
 def page(body):

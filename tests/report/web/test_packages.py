@@ -9,7 +9,7 @@ import pytest
 
 from report.steps import Step
 from report.web.worker import Packages, State, in_words, made
-from solver.model import DefectError, InputError
+from solver.errors import DefectError, InputError
 
 pytestmark = pytest.mark.quick
 

@@ -22,7 +22,7 @@ from report.web.answers import answer
 from report.web.controls import shown
 from report.web.open_project import PASSING, open_project, reference_of
 from report.web.values import typed
-from solver.model import InputError
+from solver.errors import InputError
 from solver.sliding import model_selection
 
 PROJECTS = ROOT / "projects"

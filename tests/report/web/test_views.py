@@ -11,7 +11,7 @@ from fixtures import project_parts, projects
 from report.assessment.support import response_surface
 from report.web import views
 from report.web.run_forces import during, run_forces, slips_of
-from solver.model import InputError
+from solver.errors import InputError
 from solver.sliding import model_selection
 
 LONG = projects.motions(2, seconds=20.0)  # 4,000 samples

@@ -19,7 +19,7 @@ import pytest
 import report.assessment
 from fixtures.paths import ROOT
 from report.web.processes import WorkerProcess, tell
-from solver.model import DefectError, InputError
+from solver.errors import DefectError, InputError
 
 
 def refuse(cell):

@@ -27,7 +27,7 @@ from solver.building.structure import (
     building_of_periods,
     floor_stiffness,
 )
-from solver.model import InputError
+from solver.errors import InputError
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="records take minutes without compiled kernels"

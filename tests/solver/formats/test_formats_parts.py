@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fixtures.errors import input_problems
+from solver.errors import InputError
 from solver.formats import read_motion_file
 from solver.formats.channels import motion_file, offset_notes, peak_notes
 from solver.formats.numbers import (
@@ -24,7 +25,6 @@ from solver.formats.numbers import (
 from solver.formats.phrases import Kind, parse, remark, settled, units_in, words
 from solver.formats.record_file import distinct
 from solver.formats.source import Source
-from solver.model import InputError
 from solver.records.record import UNIT_CHOICES, UNITS, Record, is_other_unit, unit_size
 
 pytestmark = pytest.mark.quick

@@ -12,9 +12,9 @@ from test_formats import HELD
 
 from fixtures.errors import input_problems
 from fixtures.paths import RECORDS, SAMPLES
+from solver.errors import InputError
 from solver.formats import read_motion_file, read_record
 from solver.formats.source import MAX_BYTES, Stated, open_source
-from solver.model import InputError
 
 G = 9.80665
 BARE = {"units": "gal", "dt_s": 0.005}

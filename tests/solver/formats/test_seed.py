@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from fixtures.errors import input_problems
+from solver.errors import InputError
 from solver.formats import read_motion_file
-from solver.model import InputError
 
 COUNTS = np.array([0, 5, -40, 12000, -7, 3] * 15, dtype=">i4")
 PER_MPS2 = 213740.0

@@ -14,8 +14,8 @@ import solver
 from fixtures.blocks import record
 from fixtures.errors import input_problems
 from modal_oracle import psa_g
+from solver.errors import InputError
 from solver.formats import read_record
-from solver.model import InputError
 from solver.records import spectrum
 from solver.records.record import UNITS, Record, record_from_values, write_record
 from solver.records.spectrum import PERIODS_S, design_spectrum, factor_to_target, response_spectrum

@@ -13,7 +13,8 @@ import oracle
 import solver
 from fixtures.blocks import block, readonly, trapezoid
 from fixtures.marks import by_day
-from solver.model import InputError, Status, coulomb
+from solver.errors import InputError
+from solver.model import Status, coulomb
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding import one_axis

@@ -10,7 +10,7 @@ import pytest
 
 from fixtures.errors import input_problems
 from fixtures.paths import DATA
-from solver.model import InputError
+from solver.errors import InputError
 from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
 from solver.rules.limit import MOTIONS, PROGRAM, Limit, Measure
 from solver.rules.provisions import (

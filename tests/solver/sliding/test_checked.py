@@ -19,8 +19,9 @@ import solver
 from fixtures.blocks import shaking, trapezoid
 from fixtures.marks import by_day
 from fixtures.paths import ROOT, TESTS
+from solver.errors import InputError
 from solver.formats import read_record
-from solver.model import EventKind, Friction, InputError, Status
+from solver.model import EventKind, Friction, Status
 from solver.sliding.checked import slide, slide_history
 from solver.verification import reference
 

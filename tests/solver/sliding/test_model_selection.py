@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from fixtures.blocks import block, shaking
+from solver.errors import InputError
 from solver.forces import friction_demand
-from solver.model import Friction, InputError, Status, coulomb
+from solver.model import Friction, Status, coulomb
 from solver.sliding import one_axis, two_axes
 from solver.sliding.checked import motion, slide
 from solver.sliding.model_selection import Model, Settings, history, solve

@@ -9,7 +9,8 @@ import pytest
 import solver
 from fixtures.blocks import block, shaking
 from fixtures.paths import ROOT
-from solver.model import InputError, Status
+from solver.errors import InputError
+from solver.model import Status
 from solver.sliding import one_axis
 
 pytestmark = pytest.mark.quick

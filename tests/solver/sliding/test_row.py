@@ -10,7 +10,8 @@ from scipy.integrate import solve_ivp
 
 from fixtures.blocks import block, readonly, shaking
 from fixtures.marks import by_day
-from solver.model import InputError, Status, coulomb
+from solver.errors import InputError
+from solver.model import Status, coulomb
 from solver.sliding import one_axis
 from solver.sliding.row import BlockRow, row_history, slide_row
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fixtures.blocks import block
-from solver.model import Friction, InputError, Status
+from solver.errors import InputError
+from solver.model import Friction, Status
 from solver.sliding import one_axis
 from solver.sliding.uplift import Supports, tipping, uplift
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.stats import f_oneway, norm
 
+from solver.errors import InputError
 from solver.friction_tests import FrictionRun, Surface, series
-from solver.model import InputError
 from solver.studies.curves import DIGITS, first_allowed, fit_prd, statistics
 from solver.studies.predictive import QUANTILES, predictive
 from solver.studies.uncertainty import (

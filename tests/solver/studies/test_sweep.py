@@ -5,7 +5,7 @@ import pytest
 
 import solver
 from fixtures.paths import ROOT
-from solver.model import InputError
+from solver.errors import InputError
 
 FOLDER = ROOT / "projects" / "example" / "records"
 

@@ -11,8 +11,9 @@ import pytest
 
 from fixtures.marks import by_day
 from modal_oracle import psa_g
+from solver.errors import InputError
 from solver.formats import read_motion_file, read_record
-from solver.model import InputError, Motion
+from solver.model import Motion
 from solver.records.acceptance import acceptance
 from solver.records.measures import measures
 from solver.records.record import Record, write_record
