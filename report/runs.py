@@ -166,14 +166,14 @@ class Runs:
     def of(self, array: Array, motions: Sequence[Motion]) -> tuple[MotionRun, ...]:
         """Return the runs of an array, once they are done."""
         self.begin([array], motions)
-        scene, found = scene_key(array), list[MotionRun]()
+        scene, done = scene_key(array), list[MotionRun]()
         for motion in motions:
             batch = (scene, motion.id, self._names(array, motion))
             if batch not in self._done:
                 runs = [run.result() for run in self._batches[batch]]
                 self._done[batch] = motion_run(motion, runs)
-            found.append(self._done[batch])
-        return tuple(found)
+            done.append(self._done[batch])
+        return tuple(done)
 
     def map(self, do: Callable[[_T], _R], items: Iterable[_T]) -> list[_R]:
         """Return what becomes of each item, two at a time."""

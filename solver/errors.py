@@ -25,9 +25,9 @@ class Problem:
         fault, _, remedy = line.partition("; ")
         return cls(fault, remedy)
 
-    def at(self, where: str, of: str = "") -> Problem:
+    def at(self, where: str, field: str = "") -> Problem:
         """Return the problem of a field at an address."""
-        return Problem(f"{of} {self.found}".lstrip(), self.remedy, where)
+        return Problem(f"{field} {self.found}".lstrip(), self.remedy, where)
 
     @property
     def text(self) -> str:
@@ -51,7 +51,7 @@ class InputError(ValueError):
 
     def __init__(self, problems: str | Problem | Sequence[str | Problem]):
         listed = [problems] if isinstance(problems, (str, Problem)) else problems
-        self.parts = tuple(Problem.of(each) if isinstance(each, str) else each for each in listed)
+        self.parts = tuple(Problem.of(part) if isinstance(part, str) else part for part in listed)
         self.problems = tuple(map(str, self.parts))
         super().__init__("\n".join(self.problems))
 

@@ -29,7 +29,7 @@ _DEVICE = re.compile(
 )
 
 
-def read_file(path: Path, most: int, name: str = "", *, too_large: str = "") -> bytes:
+def read_file(path: Path, limit: int, name: str = "", *, too_large: str = "") -> bytes:
     """Return the content of a file that a user names, opened and read once.
 
     Messages begin with `name` where a command is about another file, and say what to do with one
@@ -38,7 +38,7 @@ def read_file(path: Path, most: int, name: str = "", *, too_large: str = "") -> 
     Raises
     ------
     InputError
-        If it is no file, has more bytes than `most`, or cannot be read.
+        If it is no file, has more bytes than `limit`, or cannot be read.
     """
     begin, content = f"{name}: " if name else "", b""
     try:
@@ -48,9 +48,9 @@ def read_file(path: Path, most: int, name: str = "", *, too_large: str = "") -> 
             with open(path, "rb", opener=_open_at_once) as file:
                 # It may be another one by now.
                 status = os.fstat(file.fileno())
-                if stat.S_ISREG(status.st_mode) and status.st_size <= most:
+                if stat.S_ISREG(status.st_mode) and status.st_size <= limit:
                     # One more tells a file that grows, or that states no size.
-                    content = file.read(most + 1)
+                    content = file.read(limit + 1)
     except (OSError, ValueError) as error:  # ValueError: of a null character
         problem = f"cannot be read ({getattr(error, 'strerror', error)})"
         raise InputError(
@@ -59,8 +59,8 @@ def read_file(path: Path, most: int, name: str = "", *, too_large: str = "") -> 
     if not stat.S_ISREG(status.st_mode):
         kind = "a folder" if stat.S_ISDIR(status.st_mode) else "a pipe or a device"
         raise InputError(f"{begin}is {kind}; give a file")
-    if max(status.st_size, len(content)) > most:
-        raise InputError(f"{begin}larger than {most / 1e6:g} MB{too_large and f'; {too_large}'}")
+    if max(status.st_size, len(content)) > limit:
+        raise InputError(f"{begin}larger than {limit / 1e6:g} MB{too_large and f'; {too_large}'}")
     return content
 
 

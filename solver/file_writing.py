@@ -121,24 +121,24 @@ def _replace(part: Path, target: Path, sweep: ExitStack, undo: ExitStack) -> Non
     """Put a file in its place; what was there is put back when another one cannot be written."""
     if target.exists():
         if sys.platform == "win32" and not os.access(target, os.W_OK):
-            told = "is read-only; allow changes to it, or move it away. No file was changed"
-            raise InputError(f"{target}: {told}")
-        former = _hidden(target.parent, sweep)
+            problem = "is read-only; allow changes to it, or move it away. No file was changed"
+            raise InputError(f"{target}: {problem}")
+        backup = _hidden(target.parent, sweep)
         if sys.platform != "win32":  # there, no link to a file that is open can be removed
             with suppress(OSError):  # a file system without hard links
-                os.link(target, former)
-        if not former.exists():
-            shutil.copy2(target, former)
-        undo.callback(_put_back, former, target, part)
+                os.link(target, backup)
+        if not backup.exists():
+            shutil.copy2(target, backup)
+        undo.callback(_put_back, backup, target, part)
         part.chmod(target.stat().st_mode & 0o777)
     else:
         undo.callback(_persist, target.unlink, True)
     _persist(os.replace, part, target)
 
 
-def _put_back(former: Path, target: Path, part: Path) -> None:
+def _put_back(backup: Path, target: Path, part: Path) -> None:
     if not part.exists():  # else it was not renamed: the target is still the former file
-        _persist(os.replace, former, target)
+        _persist(os.replace, backup, target)
 
 
 def _persist(act: Callable[..., object], *arguments: object) -> None:

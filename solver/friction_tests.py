@@ -105,9 +105,10 @@ class Series:
 
         Where a run reports no velocity, the larger of the law's two coefficients is used.
         """
-        most = max(law.mu_slow, law.mu_fast)
+        larger = max(law.mu_slow, law.mu_fast)
         values = (
-            most if math.isnan(run.velocity_mps) else law.at(run.velocity_mps) for run in self.runs
+            larger if math.isnan(run.velocity_mps) else law.at(run.velocity_mps)
+            for run in self.runs
         )
         return math.fsum(values) / len(self.runs)
 

@@ -387,11 +387,11 @@ class Motion(Accelerations):
 
     def scene(self, orientation: Orientation, *, slope_rad: float, friction: Friction) -> Scene:
         """Return the scene of one run: this motion in an orientation, on a slope with friction."""
-        components, at = (self.ax_mps2, self.ay_mps2), int(orientation.is_transverse)
-        along = (components if orientation.polarity > 0 else self._reversed)[at]
+        components, along_index = (self.ax_mps2, self.ay_mps2), int(orientation.is_transverse)
+        along = (components if orientation.polarity > 0 else self._reversed)[along_index]
         return Scene(
             ax_mps2=along,
-            ay_mps2=components[1 - at],
+            ay_mps2=components[1 - along_index],
             az_mps2=self.az_mps2,
             dt_s=self.dt_s,
             slope_rad=slope_rad,

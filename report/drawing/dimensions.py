@@ -77,8 +77,8 @@ def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
 
 def _kind(plan: PlanSheet, gap: Gap) -> Neighbor | None:
     """Return what is across a clearance; None of a gap without one."""
-    of = gap.of
-    return plan.assessment.clearances[of.number - 1].neighbor if of.is_given else None
+    plan_gap = gap.of
+    return plan.assessment.clearances[plan_gap.number - 1].neighbor if plan_gap.is_given else None
 
 
 def lane_of(paper: Paper, gap: Gap) -> Lane:
@@ -129,13 +129,13 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
         draw_gap(plan, replace(gap, a=a, b=b))
     (x, y), is_row = frame.middle, frame.wide >= frame.tall
     if gap.of.is_given:
-        at = (frame.x0 + RADIUS_IN, y) if is_row else (x, frame.y1 - RADIUS_IN)
+        center = (frame.x0 + RADIUS_IN, y) if is_row else (x, frame.y1 - RADIUS_IN)
         number = str(gap.of.number)
-        plan.paper.circle(Mark.NUMBER, at, RADIUS_IN - 0.01, number)
-        plan.paper.text(at[0], at[1] - BASE_IN, number, is_centered=True)
+        plan.paper.circle(Mark.NUMBER, center, RADIUS_IN - 0.01, number)
+        plan.paper.text(center[0], center[1] - BASE_IN, number, is_centered=True)
     if is_ng:
-        at = (frame.x1 - ng_wide() / 2, y) if is_row else (x, frame.y0 + NG_TALL_IN / 2)
-        draw_ng(plan.paper, at)
+        center = (frame.x1 - ng_wide() / 2, y) if is_row else (x, frame.y0 + NG_TALL_IN / 2)
+        draw_ng(plan.paper, center)
     return replace(lane, number=frame)
 
 
@@ -151,21 +151,21 @@ def _slid(placer: Placer, lane: Lane, long: float, tall: float) -> float | None:
     return None
 
 
-def gap_texts(of: PlanGap, fmt: UnitFormat) -> tuple[str, str]:
+def gap_texts(gap: PlanGap, fmt: UnitFormat) -> tuple[str, str]:
     """Return what is provided and what is required, in the preferred unit."""
-    shows = shown_in_order(capacity(of.provided_m), demand(of.required_m))
-    values = of.provided_m, of.required_m
+    shows = shown_in_order(capacity(gap.provided_m), demand(gap.required_m))
+    values = gap.provided_m, gap.required_m
     provided, required = (fmt.short(v, show=show) for v, show in zip(values, shows, strict=True))
     return provided, required
 
 
 def _provided(plan: PlanSheet, gap: Gap) -> str:
-    of, fmt = gap.of, plan.fmt
-    provided, required = gap_texts(of, fmt)
-    if of.is_given:
+    plan_gap, fmt = gap.of, plan.fmt
+    provided, required = gap_texts(plan_gap, fmt)
+    if plan_gap.is_given:
         return provided
     # It is in no table.
-    mark = "" if math.isnan(of.required_m) else of.mark
+    mark = "" if math.isnan(plan_gap.required_m) else plan_gap.mark
     return f"not entered; in plan {provided}, required {required}{mark}"
 
 
@@ -191,12 +191,12 @@ def _dimension(plan: PlanSheet, words: str, equal: Sequence[Lane]) -> None:
 
 def alongside(lane: Lane, long: float, overhang: float) -> Iterator[float]:
     """Yield distances along a lane on both sides of its number for what is so long."""
-    (x, y), own = lane.gap.middle, lane.number
-    shift = (own.middle[0] - x) * lane.along[0] + (own.middle[1] - y) * lane.along[1]
-    apart = ((own.tall if lane.is_upright else own.wide) + long) / 2 + 0.02
-    most = lane.half + overhang - long / 2
-    for away in _steps(apart, most + abs(shift)):
-        if abs(shift + away) <= most:
+    (x, y), number = lane.gap.middle, lane.number
+    shift = (number.middle[0] - x) * lane.along[0] + (number.middle[1] - y) * lane.along[1]
+    apart = ((number.tall if lane.is_upright else number.wide) + long) / 2 + 0.02
+    reach = lane.half + overhang - long / 2
+    for away in _steps(apart, reach + abs(shift)):
+        if abs(shift + away) <= reach:
             yield shift + away
 
 
@@ -275,12 +275,12 @@ def _scale_bar(plan: PlanSheet, corner: Point, paper: Paper) -> None:
     per_in = paper.scale.m_per_in / unit.si
     is_inch = plan.fmt.us_first and paper.scale.name
     most_in = 1.5 if plan.size.is_screen else 1.05
-    whole = per_in if is_inch else round_below(most_in * per_in)
-    long = whole / per_in
+    length = per_in if is_inch else round_below(most_in * per_in)
+    long = length / per_in
     for k, look in enumerate((Mark.DARK, Mark.LIGHT)):
         paper.box(look, Frame(left + k * long / 2, base, left + (k + 1) * long / 2, base + 0.06))
     for share in (0.0, 0.5, 1.0):
-        words = f"{whole * share:g}" + (f" {unit.symbol}" if share == 1.0 else "")
+        words = f"{length * share:g}" + (f" {unit.symbol}" if share == 1.0 else "")
         paper.text(left + share * long, base - 0.14, words, is_centered=True)
     if paper.scale.name:
         paper.text(left, base + 0.13, paper.scale.name, is_bold=True)

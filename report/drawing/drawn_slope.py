@@ -12,5 +12,5 @@ DRAWN_DEG = (8.0, 15.0)
 
 def drawn_slope_deg(array: Array) -> float:
     """Return the slope at which the roof is drawn [deg]."""
-    least, most = DRAWN_DEG
-    return min(max(math.degrees(array.slope_rad), least), most)
+    low, high = DRAWN_DEG
+    return min(max(math.degrees(array.slope_rad), low), high)

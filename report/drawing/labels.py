@@ -149,8 +149,8 @@ def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
     # On a screen it comes before the clearances.
     if plan.size.is_screen and _label_in_middle(plan, array):
         return None
-    shown = list(_array_labels(plan, array))
-    (wide, tall), name = (text_size(lines, first_bold=True) for lines in (shown[0], shown[-1]))
+    labels = list(_array_labels(plan, array))
+    (wide, tall), name = (text_size(lines, first_bold=True) for lines in (labels[0], labels[-1]))
     middle = plan.room(array.id).middle
     plan.paper.placer.avoid(centered(*middle, wide + ARROW_IN, tall))
     reserved = centered(*middle, *name)
@@ -175,23 +175,23 @@ def _label_in_middle(plan: PlanSheet, array: ArrayAssessment) -> bool:
 
 def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
     """Label an array inside of it with as many lines as there is room for, or outside."""
-    frame, shown = plan.room(array.id), list(_array_labels(plan, array))
-    places = [*product(shown, ((ARROW_IN, 0.0), (0.0, ARROW_IN))), (shown[-1], (0.0, 0.0))]
+    frame, labels = plan.room(array.id), list(_array_labels(plan, array))
+    places = [*product(labels, ((ARROW_IN, 0.0), (0.0, ARROW_IN))), (labels[-1], (0.0, 0.0))]
     # From the fullest label to the name alone, each with its arrow beside and below.
-    for lines, (beside, below) in places:
+    for lines, (aside, below) in places:
         wide, tall = text_size(lines, first_bold=True)
-        label = plan.paper.placer.place(wide + beside, tall + below, frame.middle, _inner(frame))
+        label = plan.paper.placer.place(wide + aside, tall + below, frame.middle, _inner(frame))
         if label is not None:
-            _write(plan, array, label, lines, beside, below)
+            _write(plan, array, label, lines, aside, below)
             break
     else:
         lines = []
         if frame.wide < name.wide or frame.tall < name.tall:
-            plan.name_beside(frame, shown[-1])
+            plan.name_beside(frame, labels[-1])
         else:
             plan.paper.placer.take(name)
-            plan.paper.label(name, shown[-1], first_bold=True)
-    if len(lines) < min(3, len(shown[0])):
+            plan.paper.label(name, labels[-1], first_bold=True)
+    if len(lines) < min(3, len(labels[0])):
         plan.crowded.append(array.id)
 
 
@@ -200,17 +200,17 @@ def _write(
     array: ArrayAssessment,
     label: Frame,
     lines: Sequence[str],
-    beside: float,
+    aside: float,
     below: float,
 ) -> None:
     """Write the lines of a label, with its arrow, if it has one, to the right of them or below."""
-    text = Frame(label.x0, label.y0 + below, label.x1 - beside, label.y1)
+    text = Frame(label.x0, label.y0 + below, label.x1 - aside, label.y1)
     plan.paper.label(text, lines, first_bold=True)
-    if beside or below:
+    if aside or below:
         foot = label.middle[0], label.y0 + below / 2
-        at = (label.x1 - beside / 2, label.middle[1]) if beside else foot
+        center = (label.x1 - aside / 2, label.middle[1]) if aside else foot
         downslope = math.radians(array.array.downslope_deg)
-        plan.paper.arrow(Mark.SLOPE, at, downslope, 0.45 * max(beside, below))
+        plan.paper.arrow(Mark.SLOPE, center, downslope, 0.45 * max(aside, below))
 
 
 def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]]:
@@ -258,13 +258,13 @@ def label_object(plan: PlanSheet, item: RoofObject) -> None:
     wide, tall = text_size(lines)
     label = plan.paper.placer.place(wide, tall, frame.middle, _inner(frame))
     if label is None:
-        own = own_frame(plan, item)
+        object_frame = own_frame(plan, item)
         # The leader to its name begins in it.
-        if own:
-            plan.paper.placer.release(own)
+        if object_frame:
+            plan.paper.placer.release(object_frame)
         plan.name_beside(frame, lines)
-        if own:
-            plan.paper.placer.take(own)
+        if object_frame:
+            plan.paper.placer.take(object_frame)
         return
     plan.paper.box(Mark.BACKING, label)
     plan.paper.label(label, lines)

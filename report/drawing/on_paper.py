@@ -64,8 +64,8 @@ _TICKS = 6  # at most, between coordinates
 
 def draw_outlines(plan: PlanSheet) -> None:
     """Draw the roof and what is on it, and keep labels off it."""
-    shown = outlines(plan.assessment, plan.envelopes)
-    for line in sorted(shown, key=lambda line: _OVER[line.layer]):
+    lines = outlines(plan.assessment, plan.envelopes)
+    for line in sorted(lines, key=lambda line: _OVER[line.layer]):
         name = line.name if line.layer in _NAMED else ""
         if line.layer in (Layer.PARAPET, Layer.EDGE):
             for ends in _edge_lines(plan, line.name):
@@ -125,9 +125,9 @@ def draw_coordinates(plan: PlanSheet, extent: Rectangle) -> None:
 
 def _ticks(low: float, high: float) -> list[float]:
     """Return the round values within a range."""
-    least = (high - low) / _TICKS
-    decade = 10.0 ** math.floor(math.log10(least))
-    step = next(s * decade for s in (1, 2, 5, 10) if s * decade >= least * (1.0 - 1e-9))
+    min_step = (high - low) / _TICKS
+    decade = 10.0 ** math.floor(math.log10(min_step))
+    step = next(s * decade for s in (1, 2, 5, 10) if s * decade >= min_step * (1.0 - 1e-9))
     first = math.ceil(low / step - 1e-9)
     return [k * step for k in range(first, math.floor(high / step + 1e-9) + 1)]
 
@@ -200,8 +200,8 @@ def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
     data = assessment.project
     ids = (*(array.id for array in data.arrays), *(item.id for item in data.objects))
     if max(map(len, ids)) > BESIDE_LETTERS:
-        one = large[0]
-        large = (replace(one, wide=one.wide + one.columns * COLUMN_IN, columns=0),)
+        sheet = large[0]
+        large = (replace(sheet, wide=sheet.wide + sheet.columns * COLUMN_IN, columns=0),)
     return {
         PlanPaper.BY_SIZE: (small, *large),
         **dict.fromkeys((PlanPaper.LETTER, PlanPaper.A4), (small,)),
@@ -245,8 +245,8 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
         draw_dimensions(plan, lanes)
     # A small object would disappear between two names: none covers it.
     for item in plan.placed:
-        if own := own_frame(plan, item):
-            plan.paper.placer.take(own)
+        if frame := own_frame(plan, item):
+            plan.paper.placer.take(frame)
     for array, name in zip(plan.assessment.arrays, names, strict=True):
         if name is not None:
             plan.paper.placer.release(name)
@@ -268,7 +268,7 @@ def _scale(assessment: Assessment, extent: Rectangle, size: PlanSize) -> Scale:
     left, right, bottom, top = size.fringe
     wide = size.wide - left - right - (0.0 if size.is_screen else size.key_wide)
     tall = size.tall - bottom - top - (size.key_tall if size.is_screen else 0.0)
-    least = max((extent.x_to_m - extent.x_from_m) / wide, (extent.y_to_m - extent.y_from_m) / tall)
-    return (
-        Scale("", least) if size.is_screen else round_scale(least, unit_format(assessment).us_first)
-    )
+    need = max((extent.x_to_m - extent.x_from_m) / wide, (extent.y_to_m - extent.y_from_m) / tall)
+    if size.is_screen:
+        return Scale("", need)
+    return round_scale(need, unit_format(assessment).us_first)

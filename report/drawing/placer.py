@@ -135,8 +135,8 @@ class Placer:
         corners = np.array(frames)
         low, high = corners[:, :2], corners[:, 2:]
         taken = (low < self._page[:2]).any(axis=1) | (high > self._page[2:]).any(axis=1)
-        for others in (self._taken, self._threads):
-            taken |= _touches(low, high, others.table, 0.0).any(axis=1)
+        for frames_taken in (self._taken, self._threads):
+            taken |= _touches(low, high, frames_taken.table, 0.0).any(axis=1)
         if within:
             corners = np.array(within)
             taken |= _touches(corners[:, :2], corners[:, 2:], self._walls.table, 0.0).any(axis=1)

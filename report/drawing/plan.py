@@ -67,42 +67,42 @@ class PlacedTexts:
             for ends in sides(tuple(map(self.paper.at, line.points))):
                 placer.take_segment(*ends)
 
-    def name(self, layer: Layer, of: str, words: str, shape: Shape, more: str = "") -> None:
+    def name(self, layer: Layer, id: str, words: str, shape: Shape, further: str = "") -> None:
         """Name a shape within it or beside it with a leader, or else by a number in the list.
 
-        What `more` says of it stands where it has room.
+        What `further` says of it stands where it has room.
         """
         inner, key = self.paper.frame(room(shape)), f"({len(self.left) + 1})"
-        for shown in dict.fromkeys((words + more, words, key)):
-            label = self.paper.placer.place(*_size(shown), inner.middle, inner)
-            if not label and more and shown == words + more:
+        for text in dict.fromkeys((words + further, words, key)):
+            label = self.paper.placer.place(*_size(text), inner.middle, inner)
+            if not label and further and text == words + further:
                 continue
-            label = label or self._beside(of, shown, inner.middle)
+            label = label or self._beside(id, text, inner.middle)
             if label:
-                self._write(layer, of, shown, label)
+                self._write(layer, id, text, label)
                 break
-        if not label or shown is key:
-            self.left.append((of, f"{key} {words}"))
+        if not label or text is key:
+            self.left.append((id, f"{key} {words}"))
 
-    def _beside(self, of: str, words: str, start: Point) -> Frame | None:
+    def _beside(self, id: str, words: str, start: Point) -> Frame | None:
         """Return a place near a point, with a leader to it; None if there is none."""
         label = self.paper.placer.place(*_size(words), start)
         if label:
             ends = start, label.nearest(start)
             self.paper.placer.take_segment(*ends)
             points = tuple(map(self._drawn, ends))
-            leader = PlanLine(layer=Layer.NOTES, name=of, points=points, is_closed=False)
+            leader = PlanLine(layer=Layer.NOTES, name=id, points=points, is_closed=False)
             self.leaders.append(leader)
         return label
 
-    def name_edge(self, layer: Layer, of: str, words: str, shape: Shape, roof: Rectangle) -> None:
+    def name_edge(self, layer: Layer, id: str, words: str, shape: Shape, roof: Rectangle) -> None:
         """Name a roof edge along it, outside of the roof."""
         middle = self.paper.frame(roof).middle
         label, is_upright = along_strip(self.paper.frame(shape.bounds), middle, _size(words)[0])
         if isinstance(shape, Rectangle) and self.paper.placer.take_first([label]) is not None:
-            self._write(layer, of, words, label, is_upright)
+            self._write(layer, id, words, label, is_upright)
         else:
-            self.name(layer, of, words, shape)
+            self.name(layer, id, words, shape)
 
     def dimension(self, layer: Layer, name: str, words: str, gap: Gap) -> None:
         """Dimension a gap with its text beside the line, or else with a leader."""
@@ -127,10 +127,11 @@ class PlacedTexts:
         )
 
     def _write(
-        self, layer: Layer, of: str, words: str, label: Frame, is_upright: bool = False
+        self, layer: Layer, id: str, words: str, label: Frame, is_upright: bool = False
     ) -> None:
-        at = self._drawn(label.middle)
-        self.texts.append(PlanText(layer=layer, words=words, at=at, of=of, is_upright=is_upright))
+        center = self._drawn(label.middle)
+        text = PlanText(layer=layer, words=words, at=center, of=id, is_upright=is_upright)
+        self.texts.append(text)
 
     def _drawn(self, point: Point) -> Point:
         unit_in = self.unit_m / self.paper.scale.m_per_in
@@ -174,8 +175,8 @@ def plan_drawing(assessment: Assessment) -> PlanDrawing:
     low = extent.x_from_m / unit.si - fringe, min(foot, extent.y_from_m / unit.si - fringe)
     high = max(*xs, *ends) + height, extent.y_to_m / unit.si + fringe
     long_in, tall_in = WINDOW_IN
-    least = max((high[0] - low[0]) / long_in, (high[1] - low[1]) / tall_in) * unit.si
-    scale = round_scale(least, is_feet)
+    min_scale = max((high[0] - low[0]) / long_in, (high[1] - low[1]) / tall_in) * unit.si
+    scale = round_scale(min_scale, is_feet)
     return PlanDrawing(
         is_feet=is_feet,
         height=height,
@@ -236,8 +237,8 @@ def _place(assessment: Assessment, placed: PlacedTexts, extent: Rectangle) -> No
         moves = NOT_PERMITTED if array.has_unpermitted_value else "no value"
         if not math.isnan(array.permitted_m):
             moves = fmt.short(array.design_m, Quantity.SIZE, no_less)
-        more = f": displacement {moves}"
-        placed.name(Layer.ARRAY, array.id, array.id, array.array.shape, more)
+        displacement = f": displacement {moves}"
+        placed.name(Layer.ARRAY, array.id, array.id, array.array.shape, displacement)
     gaps = [Gap(gap, *map(placed.paper.at, gap.ends)) for gap in plan_gaps(assessment)]
     for gap in gaps:
         # All lines are reserved before the first text, which could lie over the next one.
@@ -288,24 +289,24 @@ def _wide(text: str, height: float) -> float:
 
 
 def _schedules(
-    assessment: Assessment, left: Sequence[tuple[str, str]], corner: Point, height: float
+    assessment: Assessment, unplaced: Sequence[tuple[str, str]], corner: Point, height: float
 ) -> tuple[list[PlanLine], list[PlanText], float]:
     """Return what the drawing is of, and the arrays and gaps as tables; the lowest y."""
     us_first, (x, y), step = assessment.project.us_first, corner, _LINE * height
-    said = [*(("", f"{head}: {text}") for head, text in title_block(assessment)), *left]
+    notes = [*(("", f"{head}: {text}") for head, text in title_block(assessment)), *unplaced]
     texts = [
-        PlanText(layer=Layer.NOTES, words=words, at=(x, y - k * step), of=of, is_left=True)
-        for k, (of, words) in enumerate(said)
+        PlanText(layer=Layer.NOTES, words=words, at=(x, y - k * step), of=id, is_left=True)
+        for k, (id, words) in enumerate(notes)
     ]
     lines: list[PlanLine] = []
-    at = (x, y - step * (len(said) + 1))
+    corner_below = (x, y - step * (len(notes) + 1))
     arrays = [(Layer.SCHEDULE, array_cells(assessment, array)) for array in assessment.arrays]
     gaps = [(_LAYERS[gap.verdict], gap_cells(gap, us_first)) for gap in plan_gaps(assessment)]
     for heads, rows in ((_OF_ARRAYS, arrays), (_OF_GAPS, gaps)):
-        ruled, words, at = _table(heads, rows, at, height)
+        ruled, words, corner_below = _table(heads, rows, corner_below, height)
         lines += ruled
         texts += words
-    return lines, texts, at[1]
+    return lines, texts, corner_below[1]
 
 
 _OF_ARRAYS = (
@@ -344,8 +345,8 @@ def array_cells(assessment: Assessment, array: ArrayAssessment) -> Sequence[str]
     slope = number(math.degrees(array.array.slope_rad), 2).replace("−", "-")
     turned = (f"{slope} deg", f"{array.array.downslope_deg:.0f} deg", verdict)
     if math.isnan(array.permitted_m):
-        what = NOT_PERMITTED if array.has_unpermitted_value else "no value"
-        return array.id, what, "no value", *turned
+        reason = NOT_PERMITTED if array.has_unpermitted_value else "no value"
+        return array.id, reason, "no value", *turned
     design = pair(array.design_m, Quantity.SIZE, us_first, no_less) + _by(array.overridden.design)
     keep = keep_clear(keep_clear_m(assessment, array), us_first)
     return array.id, design, keep + _by(keep_clear_mark(assessment, array)), *turned

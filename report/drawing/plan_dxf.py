@@ -180,13 +180,13 @@ def _add_layout(document: Drawing, plan: PlanDrawing) -> None:
     ]
     shares = [max(len(head), len(text)) + 4 for head, text in plan.title]
     for count, (head, text) in enumerate(plan.title):
-        left = long * sum(shares[:count]) / sum(shares)
+        x = long * sum(shares[:count]) / sum(shares)
         if count:
-            ends = ((left, 0.0), (left, _TITLE_IN))
+            ends = ((x, 0.0), (x, _TITLE_IN))
             rules.append(layout.add_lwpolyline(ends, dxfattribs=on_title))
         for words, size, y in ((head, 0.1, 0.75), (text, 0.2, 0.35)):
             written = layout.add_text(_coded(words), height=size, dxfattribs=on_title)
-            written.set_placement((left + 0.12, y), align=TextEntityAlignment.MIDDLE_LEFT)
+            written.set_placement((x + 0.12, y), align=TextEntityAlignment.MIDDLE_LEFT)
     for rule in rules:  # no closed line of another's plan
         rule.set_xdata(APPLICATION, [(1000, "title block")])
 

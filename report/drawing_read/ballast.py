@@ -96,13 +96,13 @@ def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list
     points = shapely.STRtree(shapely.points(rows[:, 1:3]))
     # Of arrays that overlap the last one carries the block: it is counted once.
     home = np.full(len(rows), -1)
-    of, at = points.query(solids, predicate="intersects")
-    home[at] = of
+    arrays_of, inside = points.query(solids, predicate="intersects")
+    home[inside] = arrays_of
     by_array = {}
     for index, name in enumerate(arrays):
-        own, middle = rows[home == index], solids[index].centroid
-        if count := int(own[:, 3].sum()):
-            x, y = (own[:, 3] @ own[:, 1:3] / count).tolist()
+        blocks, middle = rows[home == index], solids[index].centroid
+        if count := int(blocks[:, 3].sum()):
+            x, y = (blocks[:, 3] @ blocks[:, 1:3] / count).tolist()
             by_array[name] = Load(blocks=count, center=(x, y), centroid=(middle.x, middle.y))
     return by_array, rows[(home < 0) & (rows[:, 3] > 0.0), 0].astype(int).tolist()
 

@@ -31,7 +31,7 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping
     drawn: dict[tuple[Point, ...], int] = {}
     loops: list[list[tuple[int, bool]]] = []
     for k, points in enumerate(lines):
-        start, end = (_snapped(at, cells, tolerance) for at in (points[0], points[-1]))
+        start, end = (_snapped(point, cells, tolerance) for point in (points[0], points[-1]))
         if start != end:
             ends[k] = (start, end)
             middle = points[1:-1] if start < end else points[-2:0:-1]

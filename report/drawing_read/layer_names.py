@@ -52,5 +52,7 @@ def proposed(layer: str) -> LayerKind | None:
 
 def drawn_on(drawing: RoofDrawing, layer: str) -> str:
     """Return what is drawn on a layer, such as `3 LWPOLYLINE, 2 TEXT`."""
-    counts = sorted((of, count) for (at, of), count in drawing.counts.items() if at == layer)
-    return ", ".join(f"{count} {of}" for of, count in counts)
+    counts = sorted(
+        (kind, count) for (name, kind), count in drawing.counts.items() if name == layer
+    )
+    return ", ".join(f"{count} {kind}" for kind, count in counts)

@@ -131,10 +131,10 @@ def _arrays(
     middles = np.array([complex(*mean(lines[k].shape.points)) for k in small])
     groups = list(_parallel(lines, turned_deg))
     modules: set[int] = set()
-    for at, *_ in groups:
-        modules.update(at)
-    for at, sizes, boxes, turn, step in groups:
-        row = {k: n for n, k in enumerate(at)}
+    for indices, *_ in groups:
+        modules.update(indices)
+    for indices, sizes, boxes, turn, step in groups:
+        row = {k: n for n, k in enumerate(indices)}
         within_m = ALIKE_M + _PLACE_STEPS * step
         widest = gap_m + max(ROUNDED_GAP_M, within_m)
         parts = _closed(boxes, widest)
@@ -150,8 +150,8 @@ def _arrays(
             outline = again[0] if len(again) == 1 else part
             points = np.array(outline.exterior.coords) @ _COMPLEX * turn
             kinds = Counter(map(tuple, sizes[its].tolist())).most_common()
-            first = lines[at[its[0]]]
-            is_block = all(lines[at[n]].handle == first.handle for n in its)
+            first = lines[indices[its[0]]]
+            is_block = all(lines[indices[n]].handle == first.handle for n in its)
             yield (
                 DrawnOutline(
                     handle=first.handle,

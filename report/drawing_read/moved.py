@@ -86,8 +86,8 @@ def whole_move(
 
     The roof and rows of the same name are given as they were and as they are drawn.
     """
-    was, now = roofs
-    of_roof = list(_fits(was, now)) if was and now else []
+    was, moved = roofs
+    of_roof = list(_fits(was, moved)) if was and moved else []
     is_same_roof = any(move.factor == 1.0 for move in of_roof)
     if is_same_roof:
         tried = [move for move in of_roof if move.factor == 1.0]
@@ -106,7 +106,7 @@ def whole_move(
     count = counts[best]
     if not is_same_roof:
         is_told = count > 1 or (count == 1 and (best.is_none or best in of_roof))
-        return best if is_told else None if was and now and rows else Move()
+        return best if is_told else None if was and moved and rows else Move()
     if best.is_straight:
         return best
     slower = [move for move in counts if move != best]
@@ -131,14 +131,14 @@ def _agreeing(move: Move, rows: Sequence[Keyed], drawn: Sequence[Keyed]) -> int:
     })  # fmt: skip
 
 
-def _fits(was: Shape, now: Shape) -> Iterator[Move]:
+def _fits(was: Shape, moved: Shape) -> Iterator[Move]:
     """Yield the moves that bring an outline to another one, those that mirror it last."""
-    if len(was.points) != len(now.points):
+    if len(was.points) != len(moved.points):
         return
-    own, drawn = (np.array(shape.points) @ (1.0, 1.0j) for shape in (was, now))
+    old, drawn = (np.array(shape.points) @ (1.0, 1.0j) for shape in (was, moved))
     y = drawn - drawn.mean()
     for is_mirrored in (False, True):
-        points = own.conj()[::-1] if is_mirrored else own
+        points = old.conj()[::-1] if is_mirrored else old
         x = points - points.mean()
         # Least squares, with each vertex of the one as the first of the other.
         size = (abs(x) ** 2).sum()

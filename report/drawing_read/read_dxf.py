@@ -402,8 +402,8 @@ def _clip(insert: Any) -> _Clip | None:
     if not clip.is_clipping_enabled:
         return None
     path = clip.get_block_clipping_path()
-    at = insert.matrix44().transform_vertices([(p.x, p.y, 0.0) for p in path.inner_polygon()])
-    return [(float(p.x), float(p.y)) for p in at], path.is_inverted_clip
+    corners = insert.matrix44().transform_vertices([(p.x, p.y, 0.0) for p in path.inner_polygon()])
+    return [(float(p.x), float(p.y)) for p in corners], path.is_inverted_clip
 
 
 def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:

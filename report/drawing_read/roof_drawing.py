@@ -86,7 +86,7 @@ class RoofDrawing:
                 replace(line, shape=Polygon(turned(line.shape.points, degrees)))
                 for line in self.lines
             ],
-            texts=[replace(text, at=at) for text, at in zip(self.texts, places, strict=True)],
+            texts=[replace(text, at=place) for text, place in zip(self.texts, places, strict=True)],
             north_deg=(self.north_deg + degrees) % 360.0,
             turned_deg=self.turned_deg + degrees,
         )

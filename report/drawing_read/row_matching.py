@@ -133,8 +133,8 @@ def _outward(edge: Shape, roof: Shape) -> complex:
     across = complex(end[1] - start[1], start[0] - end[0]) / math.dist(start, end)
     middle = complex(*mean(edge.bounds.points))
     far, near = (
-        solid(roof).distance(shapely.Point(at.real, at.imag))
-        for at in (middle + across, middle - across)
+        solid(roof).distance(shapely.Point(point.real, point.imag))
+        for point in (middle + across, middle - across)
     )
     return across if far >= near else -across
 
@@ -187,7 +187,7 @@ def _tell(
             matches[number] = name
         if rivals and drawn[number].handle:
             count += 1
-            numbers, names = ({*each} for each in zip(best, *rivals, strict=True))
+            numbers, names = ({*choice} for choice in zip(best, *rivals, strict=True))
             yield _either([drawn[k] for k in sorted(numbers)], sorted(names), unit)
         pairs = {p: value for p, value in pairs.items() if p[0] != number and p[1] != name}
 

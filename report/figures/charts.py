@@ -61,9 +61,9 @@ def comparison(
         figure, axes = framed(height, 0.2 + 0.06 * letters, 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
             _compare(axes, row, group[0], first)
-            others = [others_m[array.id] / first.si for array in group if array.id in others_m]
-            if others:
-                axes.plot(others, [row] * len(others), **_OTHER, label=_LEGEND[-1])
+            lengths = [others_m[array.id] / first.si for array in group if array.id in others_m]
+            if lengths:
+                axes.plot(lengths, [row] * len(lengths), **_OTHER, label=_LEGEND[-1])
         axes.set_yticks(range(len(groups)), map("\n".join, names))
         # Downward, as the arrays are listed.
         axes.set_ylim(len(groups) - 0.45, -0.55)
@@ -74,8 +74,8 @@ def comparison(
         marks, labels = axes.get_legend_handles_labels()
         # Each label once, in the order of a row: matplotlib lists bars last.
         drawn = dict(zip(labels, marks, strict=True))
-        shown = {name: drawn[name] for name in _LEGEND if name in drawn}
-        figure.legend(shown.values(), shown, loc="lower center", ncols=6, handlelength=2.0)
+        legend = {name: drawn[name] for name in _LEGEND if name in drawn}
+        figure.legend(legend.values(), legend, loc="lower center", ncols=6, handlelength=2.0)
         return svg_text(figure)
 
 
@@ -92,8 +92,8 @@ _LEGEND = (
 def _second_scale(axes: Any, first: Unit, second: Unit) -> None:
     """Add the second unit at the top; the grid is that of the first."""
     ratio = first.si / second.si
-    other = axes.secondary_xaxis("top", functions=(lambda v: v * ratio, lambda v: v / ratio))
-    other.set_xlabel(f"[{second.symbol}]")
+    second_axis = axes.secondary_xaxis("top", functions=(lambda v: v * ratio, lambda v: v / ratio))
+    second_axis.set_xlabel(f"[{second.symbol}]")
     axes.spines["right"].set_visible(False)
     axes.grid(True, axis="x")
     axes.set_axisbelow(True)
@@ -156,14 +156,14 @@ def friction_by_velocity(
     At least one of `runs` has a velocity; `fits` are drawn as colored lines.
     """
     unit = UnitFormat(us_first).units(Quantity.VELOCITY)[0]
-    shown = [run for run in runs if not math.isnan(run.velocity_mps)]
+    timed = [run for run in runs if not math.isnan(run.velocity_mps)]
     # Runs at rest alone leave no range.
-    most = 1.08 * max(run.velocity_mps for run in shown) or unit.si
-    v = np.linspace(0.0, most, _POINTS)
+    v_max = 1.08 * max(run.velocity_mps for run in timed) or unit.si
+    v = np.linspace(0.0, v_max, _POINTS)
     with style(), mpl.rc_context(_TYPE):
         figure, axes = framed(1.75, 0.62, 2.2, 0.1, 0.52)
         for surface, look in _MARKS.items():
-            those = [run for run in shown if run.surface is surface]
+            those = [run for run in timed if run.surface is surface]
             if those:
                 axes.plot(
                     [run.velocity_mps / unit.si for run in those],
@@ -183,8 +183,10 @@ def friction_by_velocity(
             mu = number(law.mu_slow, 3) if law.mu_fast == law.mu_slow else "μ(v)"
             name = f"{cut(ranged(ids), 24)}: {mu}"
             axes.plot(v / unit.si, curve, color=INK, linewidth=1.6, linestyle=line, label=name)
-        axes.set_xlim(0.0, most / unit.si)
-        mus = [*(run.mu for run in shown), *(law.at(s) for law in laws for s in (0.0, most))]
+        axes.set_xlim(0.0, v_max / unit.si)
+        mus = [run.mu for run in timed]
+        for law in laws:
+            mus += [law.at(0.0), law.at(v_max)]
         # The scatter is to be seen, so not from the origin.
         pad = max(0.12 * (max(mus) - min(mus)), 0.02)
         axes.set_ylim(max(min(mus) - pad, 0.0), max(mus) + pad)

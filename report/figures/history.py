@@ -139,10 +139,10 @@ def _times(axes: Axes, grid: _Grid, index: int, ticks: Broken) -> None:
     level = grid.y(index, grid.low)
     for t in MaxNLocator(5).tick_values(0.0, grid.seconds):
         if 0.0 <= t <= grid.seconds:
-            at = grid.x(index, float(t))
-            ticks.add([at, at], [level, level - 0.025])
+            x = grid.x(index, float(t))
+            ticks.add([x, x], [level, level - 0.025])
             text = f"{t:g} s" if t else "0"
-            axes.text(at, level - 0.05, text, ha="center", va="top")
+            axes.text(x, level - 0.05, text, ha="center", va="top")
 
 
 def _traces(axes: Axes, grid: _Grid) -> None:
@@ -157,9 +157,9 @@ def _traces(axes: Axes, grid: _Grid) -> None:
             if values.size:
                 t, u = envelope(history.t_s, values / grid.unit.si)
                 line.add(grid.x(index, t), grid.y(index, u))
-        at = history.result.t_prd_s
-        peak = np.interp(at, history.t_s, history.u_m / grid.unit.si)
-        peaks.add([grid.x(index, at)], [grid.y(index, peak)])
+        t_prd = history.result.t_prd_s
+        peak = np.interp(t_prd, history.t_s, history.u_m / grid.unit.si)
+        peaks.add([grid.x(index, t_prd)], [grid.y(index, peak)])
     axes.plot(across.x, across.y, color=ACROSS, linewidth=0.9, linestyle=DASHES, clip_on=False)
     axes.plot(down.x, down.y, color=ACCENT, linewidth=0.9, clip_on=False)
     axes.plot(peaks.x, peaks.y, linestyle="", marker="o", markersize=3.2, color=INK, clip_on=False)
@@ -207,12 +207,12 @@ def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, F
         return t, u
     edges = np.linspace(0, len(u), maximum // 2, dtype=int)[:-1]
     parts = [*edges.tolist(), len(u)]
-    kept: list[int] = [0]
+    indices: list[int] = [0]
     for start, stop in pairwise(parts):
         piece = u[start:stop]
-        kept += sorted({start + int(piece.argmin()), start + int(piece.argmax())})
-    kept.append(len(u) - 1)
-    index = np.unique(kept)
+        indices += sorted({start + int(piece.argmin()), start + int(piece.argmax())})
+    indices.append(len(u) - 1)
+    index = np.unique(indices)
     return t[index], u[index]
 
 
@@ -312,8 +312,8 @@ def thinned(x: Floats, y: Floats) -> tuple[Floats, Floats]:
     """Return the points of a path `STEP_IN` apart along it, with its first and last."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
     _, first = np.unique(np.floor(along / STEP_IN), return_index=True)
-    kept = np.unique([0, *first, len(x) - 1])
-    return x[kept], y[kept]
+    indices = np.unique([0, *first, len(x) - 1])
+    return x[indices], y[indices]
 
 
 def _arrow(axes: Axes) -> None:

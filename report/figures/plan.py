@@ -225,9 +225,9 @@ def _block(
     axes.add_patch(Polygon(corners, edgecolor=INK, linewidth=0.7, **look))
 
 
-def _center(axes: Axes, at: Point) -> None:
-    axes.plot(*at, marker="o", markersize=6, markerfacecolor="white", markeredgecolor=INK, zorder=4)
-    axes.plot(*at, marker="+", markersize=6, color=INK, zorder=5)
+def _center(axes: Axes, xy: Point) -> None:
+    axes.plot(*xy, marker="o", markersize=6, markerfacecolor="white", markeredgecolor=INK, zorder=4)
+    axes.plot(*xy, marker="+", markersize=6, color=INK, zorder=5)
 
 
 def _line(
@@ -240,10 +240,10 @@ def _arrow(axes: Axes, start: Point, tip: Point, **look: Any) -> None:
     axes.annotate("", tip, start, arrowprops={**_FORCE_ARROW, "color": ACCENT, **look})
 
 
-def _label(axes: Axes, at: Point, text: str, subscript: str) -> None:
+def _label(axes: Axes, anchor: Point, text: str, subscript: str) -> None:
     """Write a symbol with its subscript."""
     # The font has no subscript letters.
-    main = axes.text(*at, text, va="bottom", fontsize=10.0)
+    main = axes.text(*anchor, text, va="bottom", fontsize=10.0)
     axes.annotate(
         subscript, (1.0, 0.0), (0.5, -3.0), xycoords=main, textcoords="offset points", va="bottom"
     )

@@ -109,15 +109,15 @@ def _bands(roof: RoofComparison) -> Table:
         (
             _name("Building"),
             *(
-                (text(f"{low:g} to {high:g}", "s"), lambda prediction, at=at: _band(prediction, at))
-                for at, (low, high) in enumerate(roof.bands_s)
+                (text(f"{low:g} to {high:g}", "s"), lambda prediction, k=k: _band(prediction, k))
+                for k, (low, high) in enumerate(roof.bands_s)
             ),
         ),
     )
 
 
-def _band(prediction: RoofPrediction, at: int) -> str:
-    return f"{prediction.band_ratios[at]:.2f} ({100.0 * prediction.band_scatters[at]:.0f} %)"
+def _band(prediction: RoofPrediction, k: int) -> str:
+    return f"{prediction.band_ratios[k]:.2f} ({100.0 * prediction.band_scatters[k]:.0f} %)"
 
 
 def _peaks(roof: RoofComparison) -> Table:
@@ -126,8 +126,8 @@ def _peaks(roof: RoofComparison) -> Table:
         (
             _name("Roof motion"),
             *(
-                (text(f"μ = {mu:g}", "mm"), lambda rows, at=at: _peak(rows.prd_m, roof, at))
-                for at, mu in enumerate(roof.mus)
+                (text(f"μ = {mu:g}", "mm"), lambda rows, k=k: _peak(rows.prd_m, roof, k))
+                for k, mu in enumerate(roof.mus)
             ),
         ),
     )
@@ -135,5 +135,5 @@ def _peaks(roof: RoofComparison) -> Table:
     return compared_with(rows, (_reference(roof), *peaks))
 
 
-def _peak(prd_m: Floats, roof: RoofComparison, at: int) -> str:
-    return f"{number(1e3 * prd_m[at], 0)} ({prd_m[at] / roof.prd_m[at]:.2f})"
+def _peak(prd_m: Floats, roof: RoofComparison, k: int) -> str:
+    return f"{number(1e3 * prd_m[k], 0)} ({prd_m[k] / roof.prd_m[k]:.2f})"

@@ -162,8 +162,8 @@ def curves(study: DesignCurves) -> str:
         return svg_text(figure)
 
 
-def _nearest(values: Floats, wanted: float) -> int:
-    return int(np.abs(values - wanted).argmin())
+def _nearest(values: Floats, value: float) -> int:
+    return int(np.abs(values - value).argmin())
 
 
 def _every(values: Floats) -> list[tuple[int, float]]:
@@ -197,9 +197,9 @@ def contours(study: DesignCurves) -> str:
             linestyles=["-" if v in (500.0, 1000.0) else DASHED for v in levels],
         )
         axes.clabel(drawn, fmt=lambda value: f"{value:g} mm", inline_spacing=2)
-        least = study.minimum_mu(slope_deg, float(study.ppas_g[ppa]), wanted_m)
-        if not math.isnan(least):
-            _read_off(axes, least, slope_deg, wanted_m)
+        mu_min = study.minimum_mu(slope_deg, float(study.ppas_g[ppa]), wanted_m)
+        if not math.isnan(mu_min):
+            _read_off(axes, mu_min, slope_deg, wanted_m)
         axes.set_xlim(study.mus[0], study.mus[-1])
         axes.set_ylim(study.slopes_deg[0], study.slopes_deg[-1])
         axes.set_xlabel("Friction coefficient μ")

@@ -59,7 +59,7 @@ def methods(verification: Verification) -> Section:
 
 def work(verification: Verification) -> Section:
     """Return accuracy against run time."""
-    runs, least = verification.work, floor(verification)
+    runs, floor_share = verification.work, floor(verification)
     plane = verification.models[0].work if verification.models else runs[:0]
     lost = runs[runs[[TIME, "PRD error [m]"]].isna().any(axis=1)]
     ours = plane[(plane["method"] == OURS) & (plane["setting"] == DEFAULT_TOLERANCE)]
@@ -68,14 +68,14 @@ def work(verification: Verification) -> Section:
         "Accuracy against run time",
         cases=len(runs[RUN].drop_duplicates()),
         lost=lost.groupby("method", sort=False).size().to_dict(),
-        floor_percent=100.0 * least,
+        floor_percent=100.0 * floor_share,
         plane=plane,
         ours=ours,
         in_plane=times_longer(
             plane[plane["method"].str.endswith("(compiled)")], ours, "residual error [%]"
         ),
         medians=_medians(runs),
-        charts={"work-percent": figures.overview(runs, plane, 100.0 * least)},
+        charts={"work-percent": figures.overview(runs, plane, 100.0 * floor_share)},
     )
 
 
@@ -115,10 +115,10 @@ def _setting(method: str, value: float) -> str:
 def _errors(head: str, error: str, reference: str = "exact") -> tuple[Column, Column]:
     """Return the columns of the median and of the largest error."""
 
-    def found(runs: pd.DataFrame, of: str) -> str:
+    def found(runs: pd.DataFrame, statistic: str) -> str:
         # It is what the others are compared with; its own error is against 50 digits.
         is_reference = runs["method"].iloc[0] == reference
-        return "reference" if is_reference else percent(runs[error].agg(of))
+        return "reference" if is_reference else percent(runs[error].agg(statistic))
 
     return (
         (text(head, "median", 1.2), lambda row: found(row[1], "median")),
@@ -131,8 +131,8 @@ def stability(verification: Verification) -> Section:
     # Numbered through all charts: the notes name a map by its number.
     counted = list(enumerate(verification.maps, start=1))
     by_chart = {
-        f"stability-{at // stability_maps.MOST + 1}": counted[at : at + stability_maps.MOST]
-        for at in range(0, len(counted), stability_maps.MOST)
+        f"stability-{k // stability_maps.MOST + 1}": counted[k : k + stability_maps.MOST]
+        for k in range(0, len(counted), stability_maps.MOST)
     }
     return section(
         "manual/stability",
@@ -172,8 +172,8 @@ def convergence(verification: Verification) -> Section:
         errors=orders,
         charts={
             # Three rows to a chart, which stays on one page.
-            f"convergence-{at // 3 + 1}": paper_figures.convergence(orders[at : at + 3])
-            for at in range(0, len(orders), 3)
+            f"convergence-{start // 3 + 1}": paper_figures.convergence(orders[start : start + 3])
+            for start in range(0, len(orders), 3)
         },
     )
 

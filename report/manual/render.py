@@ -52,14 +52,14 @@ def summary(verification: Verification) -> Section:
     work, maps, links = verification.work, verification.maps, verification.links
     paper = work[(work["method"] == "paper") & (work["setting"] == 64)]
     # Of the same record and case.
-    beside = paper.merge(work[work["method"] == "exact"], on=["record", "case"])
+    compared = paper.merge(work[work["method"] == "exact"], on=["record", "case"])
     worst = max(links, key=lambda link: link.worst_percent) if links else None
     return section(
         "manual/summary",
         "Summary",
         floor=floor(verification),
         exact_s=work.loc[work["method"] == "exact", TIME].median(),
-        times_longer=(beside[f"{TIME}_x"] / beside[f"{TIME}_y"]).median(),
+        times_longer=(compared[f"{TIME}_x"] / compared[f"{TIME}_y"]).median(),
         paper_percent=paper["PRD error [%]"].max(),
         failed_runs=work[TIME].isna().sum(),
         failed_cells=sum(int(sweep.failed.sum()) for sweep in maps),

@@ -71,8 +71,8 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
     bands = ListedColormap([band[2] for band in _BANDS])
     norm = BoundaryNorm([0.0, 0.1, 1.0, 10.0, 1e300], bands.N)
     # A failed cell has no color of its error, which would look like a result; its hatching follows.
-    shown = np.ma.masked_where(sweep.failed, sweep.error_percent)
-    axes.pcolormesh(x, y, shown, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
+    errors = np.ma.masked_where(sweep.failed, sweep.error_percent)
+    axes.pcolormesh(x, y, errors, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
     for row, column in np.argwhere(sweep.failed):
         axes.fill(
             [x[column], x[column + 1], x[column + 1], x[column]],

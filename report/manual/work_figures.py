@@ -72,9 +72,9 @@ def medians(runs: pd.DataFrame, error: str, floor: float) -> pd.DataFrame:
     """Return the median times and error of each method and setting, and the largest error."""
     answered = runs.dropna(subset=[TIME, error])
     settings = answered.groupby(["method", "setting"], sort=False, dropna=False)
-    found = settings[[TIME, SINGLE, error]].median().assign(largest=settings[error].max())
+    medians_of = settings[[TIME, SINGLE, error]].median().assign(largest=settings[error].max())
     # Errors below the floor are set to it: rounding error limits them, and a log scale has no 0.
-    return found.assign(**{name: found[name].clip(floor) for name in (error, "largest")})
+    return medians_of.assign(**{name: medians_of[name].clip(floor) for name in (error, "largest")})
 
 
 def overview(

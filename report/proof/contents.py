@@ -75,11 +75,11 @@ def refused(pdf: PdfReader) -> Iterator[str]:
             yield f"sheet {count}: its content is in several parts"
         # What is cropped or scaled away keeps its words. Readers may be told to show any frame.
         frames = [page.mediabox, page.cropbox, page.bleedbox, page.trimbox, page.artbox]
-        whole = [0.0, 0.0, page.mediabox.width, page.mediabox.height]
-        if page.rotation or page.user_unit != 1.0 or frames != [whole] * len(frames):
+        page_frame = [0.0, 0.0, page.mediabox.width, page.mediabox.height]
+        if page.rotation or page.user_unit != 1.0 or frames != [page_frame] * len(frames):
             yield f"sheet {count}: rotated, cropped, moved or scaled"
     root: Any = pdf.root_object
-    own = {id(file.get_object()) for file in root["/Names"]["/EmbeddedFiles"]["/Names"]}
+    attached = {id(file.get_object()) for file in root["/Names"]["/EmbeddedFiles"]["/Names"]}
     for place, item in _dictionaries(pdf):
         for key in sorted(item.keys() & _FORBIDDEN.keys()):
             yield f"{place}: {_FORBIDDEN[key]} ({key})"
@@ -88,7 +88,7 @@ def refused(pdf: PdfReader) -> Iterator[str]:
             yield f"{place}: an action (/A)"
         if "/Kids" in item and "/UserUnit" in item:
             yield f"{place}: its sheets are scaled"
-        if ("/EF" in item and id(item) not in own) or ("/AF" in item and "/Pages" not in item):
+        if ("/EF" in item and id(item) not in attached) or ("/AF" in item and "/Pages" not in item):
             yield f"{place}: an attachment that is not ours"
 
 
@@ -229,8 +229,8 @@ def differences(
         and isinstance(computed, list)
         and (shared or len(claimed) == len(computed))
     ):
-        for at, pair in enumerate(zip(claimed, computed, strict=False)):
-            yield from differences(*pair, f"{place}[{at}]", shared=shared)
+        for index, pair in enumerate(zip(claimed, computed, strict=False)):
+            yield from differences(*pair, f"{place}[{index}]", shared=shared)
     elif _is_number(claimed) and _is_number(computed):
         if abs(claimed - computed) > _allowed(claimed, computed, place):
             yield f"{place} is {_short(claimed)}; the input gives {_short(computed)}"
@@ -264,8 +264,8 @@ def first_other_word(claimed: str, computed: str) -> str:
     if letters[0] == letters[1]:
         return ""
     same = takewhile(lambda pair: pair[0] == pair[1], zip(*letters, strict=False))
-    at = sum(1 for _ in same)
-    return f"{_word(first, at)} where the input gives {_word(second, at)}"
+    index = sum(1 for _ in same)
+    return f"{_word(first, index)} where the input gives {_word(second, index)}"
 
 
 def _word(words: Sequence[str], letter: int) -> str:

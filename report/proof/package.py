@@ -173,8 +173,8 @@ def take_out(
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
             # Exclusive: of names that are equal, or that a disk takes for equal, the second fails.
-            with target.open("xb") as new:
-                new.write(content)
+            with target.open("xb") as copy:
+                copy.write(content)
         except (FileExistsError, NotADirectoryError) as error:
             raise InputError(
                 f"the attachment {file.path!r:.80} is in the way of another"
@@ -215,18 +215,18 @@ def signed_fields(pdf: PdfReader) -> list[str]:
     return [str(field.get("/T")) for field in fields if "/V" in field]
 
 
-def warn_of_other_input(new: Path, others: Sequence[Path]) -> None:
+def warn_of_other_input(written: Path, earlier: Sequence[Path]) -> None:
     """Warn of packages that were written from another input than a new one, such as signed ones."""
     # Each is opened and read: a folder may have hundreds.
-    for path in others[:_MOST_OTHERS]:
+    for path in earlier[:_MOST_OTHERS]:
         # A drawing or a letter beside the package is none, and no reason for a message.
         with suppress(InputError, OSError, KeyError, TypeError):
             package = opened(read_package(path))
-            if _inputs(package) != _inputs(opened(read_package(new))):
+            if _inputs(package) != _inputs(opened(read_package(written))):
                 revision = package.results["input"]["project"]["revision"]
                 sign = "; sign the new package" if signed_fields(package.pdf) else ""
-                what = f"of revision {revision!s:.40}, another input: {package.results['verdict']}"
-                warnings.warn(f"{path}: is {what}{sign}", stacklevel=2)
+                text = f"of revision {revision!s:.40}, another input: {package.results['verdict']}"
+                warnings.warn(f"{path}: is {text}{sign}", stacklevel=2)
 
 
 def _inputs(package: OpenedPackage) -> set[tuple[str, str]]:
@@ -298,12 +298,12 @@ def failed(package: OpenedPackage, problems: Sequence[str]) -> Proof:
 def _not_compared(theirs: Manifest, ours: Manifest) -> str:
     if _is_other(theirs.roofslip_version):
         return f"{_other_version(theirs)}; words and drawings not compared: {_READ}"
-    others = [
-        f"{name} {theirs.environment.get(name, 'none')} (here {here})"
-        for name, here in ours.environment.items()
-        if theirs.environment.get(name) != here
+    versions = [
+        f"{name} {theirs.environment.get(name, 'none')} (here {version})"
+        for name, version in ours.environment.items()
+        if theirs.environment.get(name) != version
     ]
-    names = f"; it names {', '.join(others)}" if others else ""
+    names = f"; it names {', '.join(versions)}" if versions else ""
     return f"drawings not compared: {_READ}{names}"
 
 
@@ -354,7 +354,7 @@ def _words(package: OpenedPackage, made: OpenedPackage) -> Iterator[str]:
             return
         computed = " ".join(remade[1].split())
         # The sheets print the versions: only these words may differ with them.
-        for name, here in ours.items():
-            computed = computed.replace(f"{name} {here}", f"{name} {theirs.get(name, 'none')}")
+        for name, release in ours.items():
+            computed = computed.replace(f"{name} {release}", f"{name} {theirs.get(name, 'none')}")
         if first := first_other_word(stated[1], computed):
             yield f"{stated[0]}: {first}"

@@ -71,7 +71,7 @@ def _judged(data: bytes, made: bytes) -> Appended:
     for signature in file.embedded_signatures:
         status = _validated(signature)
         stamp = getattr(status, "timestamp_validity", None)
-        if not all(each.intact and each.valid for each in (status, stamp) if each):
+        if not all(part.intact and part.valid for part in (status, stamp) if part):
             problems.append(
                 f"signature '{signature.field_name}': does not fit the bytes that it covers"
             )
@@ -103,21 +103,21 @@ _CHANGING |= {"/ModDate", "/Producer"}
 
 def _others(data: bytes, made: bytes) -> Iterator[str]:
     """Yield what was changed in a package that signing does not change."""
-    old, new = (PdfReader(io.BytesIO(file), strict=True) for file in (made, data))
-    before, after = _places(old), _places(new)
+    original, signed = (PdfReader(io.BytesIO(file), strict=True) for file in (made, data))
+    before, after = _places(original), _places(signed)
     for number in sorted(before):
         # Objects whose place in the file is the same have the same bytes: what was made is its
         # beginning.
         if before[number] != after.get(number) and not _is_signing(
-            old.get_object(number), new.get_object(number)
+            original.get_object(number), signed.get_object(number)
         ):
             yield f"appended: another object {number}, which no signature changes"
     # A new trailer may name another catalog beside the untouched one.
-    trailers = [_without(pdf.trailer, {"/Size", "/Prev", "/ID"}) for pdf in (old, new)]
+    trailers = [_without(pdf.trailer, {"/Size", "/Prev", "/ID"}) for pdf in (original, signed)]
     if any(trailers[0][key] != trailers[1].get(key) for key in ("/Root", "/Info")):
         yield "appended: another document"
     # Title and author are in the XMP stream, which signing may rewrite.
-    if _stated(old) != _stated(new):
+    if _stated(original) != _stated(signed):
         yield "appended: another title, author or subject"
 
 

@@ -101,14 +101,14 @@ def _exported(
 
 
 def _part(
-    parts: Sequence[Dispersion], at: int, by_state: Mapping[str, Sequence[Dispersion]]
+    parts: Sequence[Dispersion], k: int, by_state: Mapping[str, Sequence[Dispersion]]
 ) -> Column:
     """Return the column of a dispersion: its name, and its source in the states that have it."""
     source = next(part.source for part in parts if part.beta)
-    head = text(f"{NAMES[at].capitalize()}: {source}", share=1.7)
+    head = text(f"{NAMES[k].capitalize()}: {source}", share=1.7)
     return (
         head,
-        lambda state: _beta(by_state[state.name][at].beta) or by_state[state.name][at].source,
+        lambda state: _beta(by_state[state.name][k].beta) or by_state[state.name][k].source,
     )
 
 
@@ -249,6 +249,6 @@ def _of_array(results: StudyResults, array_years: ArrayYears) -> YearsOfArray:
         clearance_m=array_years.plan.array.clearance_m,
         clearance_rate=float(array_years.clearance_rates[0]),
         prd_m={f"{span:g}": prd_m for span, prd_m, *_ in array_years.recurrences},
-        largest={name: Distance.model_validate(of[0]) for name, of in statistics.items()},
-        last={name: Distance.model_validate(of[1]) for name, of in statistics.items()},
+        largest={name: Distance.model_validate(pair[0]) for name, pair in statistics.items()},
+        last={name: Distance.model_validate(pair[1]) for name, pair in statistics.items()},
     )

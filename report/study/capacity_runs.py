@@ -47,12 +47,12 @@ def array_capacities(
         around = [medians, medians]
         # Without a median at the center none is dispersed: the runs would be in vain.
         if not np.isnan(medians).all():
-            beside = [_shifted(plan, array, runner, at) for at in shifts]
-            searches += beside
-            around = [_medians(one) for one in beside]
+            shifted = [_shifted(plan, array, runner, shift) for shift in shifts]
+            searches += shifted
+            around = [_medians(states) for states in shifted]
         for effect, median, low, high in zip(effects, medians, *around, strict=True):
             effect[name] = first_order_beta(median, (low, high))
-    return capacities, effects, sum(int(one[0].runs.sum()) for one in searches)
+    return capacities, effects, sum(int(states[0].runs.sum()) for states in searches)
 
 
 def maximum_runs(plan: StudyPlan, array: ArrayPlan) -> int:
@@ -70,7 +70,7 @@ def curves_of(runner: Runner, array: ArrayPlan, mu: float, slope_deg: float) -> 
     columns, tracks = runner.campaign.columns, runner.tracks[array.building]
     return [
         Curve(
-            tracks=[t for (at, _), t in zip(columns, tracks, strict=True) if at == number],
+            tracks=[t for (motion, _), t in zip(columns, tracks, strict=True) if motion == number],
             slope_rad=math.radians(slope_deg),
             mu=mu,
         )
@@ -92,19 +92,19 @@ def _searched(
 
 
 def _shifted(
-    plan: StudyPlan, array: ArrayPlan, runner: Runner, at: Shift
+    plan: StudyPlan, array: ArrayPlan, runner: Runner, shift: Shift
 ) -> tuple[Capacities, ...]:
     """Return the capacities at another friction or slope."""
     # A block that yields later than at the center is searched that much farther: otherwise fewer
     # motions would reach a limit.
-    later = _yield(*at) / _yield(array.mu, array.array.slope_deg)
+    later = _yield(*shift) / _yield(array.mu, array.array.slope_deg)
     top = np.array([max(1.0, later) * plan.input.intensities[-1]])
-    curves = curves_of(runner, array, *at)
+    curves = curves_of(runner, array, *shift)
     return _searched(plan, array, curves, top, steps=COARSE_SCAN, to_end=False)
 
 
-def _medians(found: Sequence[Capacities]) -> list[float]:
-    return [fit_lognormal(capacities).theta for capacities in found]
+def _medians(states: Sequence[Capacities]) -> list[float]:
+    return [fit_lognormal(capacities).theta for capacities in states]
 
 
 def _yield(mu: float, slope_deg: float) -> float:

@@ -51,16 +51,16 @@ from solver.rules.provisions import prescriptive_checks, required_mu
 def curves(results: StudyResults, building: int) -> Section:
     """Return the section on a building."""
     study_input = results.plan.input
-    shown = some(study_input.mus, MOST_FRICTIONS)
+    drawn_mus = some(study_input.mus, MOST_FRICTIONS)
     # A single slope is no axis.
-    sloped = shown if len(study_input.slopes_deg) > 1 else []
-    sheets, beside = list(_sheets(results, building)), some(study_input.slopes_deg, MOST_LINES)
+    sloped = drawn_mus if len(study_input.slopes_deg) > 1 else []
+    sheets, slopes = list(_sheets(results, building)), some(study_input.slopes_deg, MOST_LINES)
     values, mean = _drawn(results, building)
     return section(
         "study/curves",
         f"Design curves{on_building(results, building, ', building ')}",
         id=f"curves-{building}",
-        named={m: friction_name(results, study_input.mus[m]) for m in shown},
+        named={m: friction_name(results, study_input.mus[m]) for m in drawn_mus},
         sheets=[(name, is_thick) for name, _, is_thick in sheets],
         LOW_G=LOW_G,
         place=results.plan.motions.buildings[building],
@@ -69,9 +69,9 @@ def curves(results: StudyResults, building: int) -> Section:
         charts={
             **{
                 f"intensity-{m}": by_intensity(
-                    results, values, m, beside=[mean[s, m] for s in beside]
+                    results, values, m, members=[mean[s, m] for s in slopes]
                 )
-                for m in shown
+                for m in drawn_mus
             },
             **{f"slope-{m}": _against_slope(results, building, m) for m in sloped},
             **{f"sheet-{name}": svg for name, svg, _ in sheets},
@@ -87,15 +87,15 @@ def _drawn(results: StudyResults, building: int) -> tuple[Floats, Floats]:
 
 def _against_slope(results: StudyResults, building: int, m: int) -> str:
     study_input = results.plan.input
-    shown = some(study_input.intensities, MOST_LINES)
+    drawn_levels = some(study_input.intensities, MOST_LINES)
     values, mean = _drawn(results, building)
     return study_charts.curves(
         np.array(study_input.slopes_deg),
-        [(level(results, study_input.intensities[x]), values[:, m, x]) for x in shown],
+        [(level(results, study_input.intensities[x]), values[:, m, x]) for x in drawn_levels],
         length_unit(results),
         along="Slope [deg]",
         low=study_input.slopes_deg[-1],
-        beside=[mean[:, m, x] for x in shown],
+        members=[mean[:, m, x] for x in drawn_levels],
     )
 
 
@@ -144,9 +144,9 @@ def _displacements(results: StudyResults, building: int) -> Table:
         *(
             (
                 text(capitalized(name), unit, 1.3),
-                lambda case, name=name, of=of: cells[name](results, float(of[case])),
+                lambda case, name=name, lengths=lengths: cells[name](results, float(lengths[case])),
             )
-            for name, of in results.displacements.items()
+            for name, lengths in results.displacements.items()
         ),
         (text("Motions without a value", share=1.5), lambda case: int(lost[case])),
     )
@@ -163,13 +163,15 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
     slopes = [
         shown(s, SLOPE_DECIMALS) for s in (study_input.slopes_deg[0], study_input.slopes_deg[-1])
     ]
-    least = partial(answer, end=study_input.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
+    needed = partial(answer, end=study_input.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
     largest = partial(answer, end=study_input.slopes_deg[-1], mark="≥", decimals=SLOPE_DECIMALS)
     answers = []
     for name in dict.fromkeys((results.leading, MEAN)):
         mus = results.minimum_frictions(building, name, allowed_m)
         slopes_deg = results.largest_slopes(building, name, allowed_m)
-        by_slope = _allowed_table(results, text("Slope", "deg"), study_input.slopes_deg, mus, least)
+        by_slope = _allowed_table(
+            results, text("Slope", "deg"), study_input.slopes_deg, mus, needed
+        )
         by_friction = _allowed_table(results, text("μ"), study_input.mus, slopes_deg, largest)
         answers.append((name, by_slope, by_friction))
     return section(

@@ -66,10 +66,10 @@ def axis(results: StudyResults) -> str:
     return results.plan.input.study.intensity.value
 
 
-def by_intensity(results: StudyResults, values: Floats, m: int, **more: Any) -> str:
+def by_intensity(results: StudyResults, values: Floats, m: int, **options: Any) -> str:
     """Return displacements at a friction coefficient over intensity, a line for each slope.
 
-    They have the shape (slopes, frictions, intensities) [m]; `more` is as in `study_charts.curves`.
+    They have the shape (slopes, frictions, intensities) [m]; `options` as in `study_charts.curves`.
     """
     study_input = results.plan.input
     return study_charts.curves(
@@ -82,7 +82,7 @@ def by_intensity(results: StudyResults, values: Floats, m: int, **more: Any) -> 
         along=axis(results),
         # A velocity has no such limit.
         low=LOW_G if study_input.study.intensity.unit == "g" else -math.inf,
-        **more,
+        **options,
     )
 
 
@@ -165,13 +165,13 @@ def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
     mean_m, design_m = results.curves.mean_m, results.design_m
     by_formula = partial(_by_formula, results, fit)
     columns = (
-        (text("μ"), lambda at: f"{study_input.mus[at[2]]:g}"),
-        (text("Slope", "deg"), lambda at: f"{study_input.slopes_deg[at[1]]:g}"),
-        (text(with_symbols(axis(results))), lambda at: f"{study_input.intensities[at[3]]:g}"),
-        (text("Mean PRD", unit), lambda at: length(results, float(mean_m[at]))),
-        (text(name, unit, 1.4), lambda at: design_length(results, float(design_m[at]))),
-        (text("The same by the formula", unit, 1.4), lambda at: by_formula(at)[0]),
-        (text(with_symbols("Δ_RHA / formula"), share=1.2), lambda at: by_formula(at)[1]),
+        (text("μ"), lambda index: f"{study_input.mus[index[2]]:g}"),
+        (text("Slope", "deg"), lambda index: f"{study_input.slopes_deg[index[1]]:g}"),
+        (text(with_symbols(axis(results))), lambda index: f"{study_input.intensities[index[3]]:g}"),
+        (text("Mean PRD", unit), lambda index: length(results, float(mean_m[index]))),
+        (text(name, unit, 1.4), lambda index: design_length(results, float(design_m[index]))),
+        (text("The same by the formula", unit, 1.4), lambda index: by_formula(index)[0]),
+        (text(with_symbols("Δ_RHA / formula"), share=1.2), lambda index: by_formula(index)[1]),
     )
     intensities = some(study_input.intensities, MOST_FRICTIONS)
     cases = []
@@ -181,15 +181,15 @@ def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
     return listed(cases, columns, kind="compact")
 
 
-def _by_formula(results: StudyResults, fit: Fit, at: _At) -> tuple[str, str]:
+def _by_formula(results: StudyResults, fit: Fit, index: _At) -> tuple[str, str]:
     """Return the design displacement by the formula, and computed value / formula."""
     study_input, rule = results.plan.input, results.plan.design_rule
-    _, s, m, x = at
+    _, s, m, x = index
     case = math.radians(study_input.slopes_deg[s]), study_input.mus[m], study_input.intensities[x]
     # Beyond the domain of the fit its error is not known.
     if not fit.covers(*case):
         return "outside", "—"
-    computed, fitted = float(results.analysis_m[at]), fit.prd_m(*case)
+    computed, fitted = float(results.analysis_m[index]), fit.prd_m(*case)
     floor = float(rule.floor_m[x]) if rule.has_floor else 0.0
     ratio = number(computed / fitted, 2) if computed > 0.0 else "—"
     return design_length(results, max(fitted, floor)), ratio

@@ -121,8 +121,8 @@ def _table(campaign: Campaign, part: slice, rows: Rows, names: Sequence[str]) ->
     cases, columns = campaign.cases[part], campaign.columns
     count, n_columns = len(cases), len(columns)
 
-    def keys(words: Iterable[str], at: Any) -> Any:
-        return pa.DictionaryArray.from_arrays(np.asarray(at, np.int32), pa.array(list(words)))
+    def keys(words: Iterable[str], indices: Any) -> Any:
+        return pa.DictionaryArray.from_arrays(np.asarray(indices, np.int32), pa.array(list(words)))
 
     motions = [motion.id for motion in campaign.motions[0]]
     swapped = [orientation.is_transverse for _, orientation in columns]
@@ -138,7 +138,7 @@ def _table(campaign: Campaign, part: slice, rows: Rows, names: Sequence[str]) ->
             "motion": keys(motions, np.tile([number for number, _ in columns], count)),
             "component": keys(("record", "transverse"), np.tile(swapped, count)),
             "polarity": np.tile(signs, count),
-            **{name: of.ravel() for name, of in zip(LENGTHS, rows.lengths, strict=True)},
+            **{name: lengths.ravel() for name, lengths in zip(LENGTHS, rows.lengths, strict=True)},
             "status": keys([status.value for status in STATUSES], rows.status.ravel()),
             "model": keys([model.title for model in Model], rows.model.ravel()),
         }
@@ -148,8 +148,8 @@ def _table(campaign: Campaign, part: slice, rows: Rows, names: Sequence[str]) ->
 def signed(content: bytes, key: bytes) -> bytes:
     """Return a part with the SHA-256 and the HMAC of all of its unsigned file in its metadata."""
     # The placeholder of the same length: no offset of the Parquet file moves.
-    at = content.rindex(_SHA256)
-    before, after = content[:at], content[at + len(_UNSIGNED) :]
+    start = content.rindex(_SHA256)
+    before, after = content[:start], content[start + len(_UNSIGNED) :]
     digest = hashlib.sha256(before + _UNSIGNED + after)
     tag = hmac.digest(key, digest.digest(), "sha256").hex()
     signature = _SHA256 + digest.hexdigest().encode() + _HMAC + tag.encode()
@@ -180,7 +180,7 @@ def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
 
 def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> dict[int, Done]:
     """Return the parts that are whole and of these runs, those of other keys included."""
-    whole = {}
+    complete = {}
     for number, part in enumerate(campaign.parts):
         try:
             done = _opened((folder / part_name(number)).read_bytes(), key)
@@ -188,8 +188,8 @@ def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> d
             continue
         rows = (part.stop - part.start) * len(campaign.columns)
         if (done.about.identity, done.about.number, done.rows) == (identity, number, rows):
-            whole[number] = done
-    return whole
+            complete[number] = done
+    return complete
 
 
 def _opened(content: bytes, key: bytes) -> Done:

@@ -94,8 +94,8 @@ def _faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
     yield from _about_hazard(study, inputs)
 
 
-def _at(field: str, found: str, remedy: str = "") -> Finding:
-    return Finding.error(Place("study", 0, field), found, remedy)
+def _at(field: str, problem: str, remedy: str = "") -> Finding:
+    return Finding.error(Place("study", 0, field), problem, remedy)
 
 
 def _about_study(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
@@ -174,8 +174,8 @@ def _about_hazard(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
     hazard = inputs["hazard"][0] if inputs["hazard"] else {}
     labels = {entry.name: entry.spoken for entry in HAZARD.entries}
 
-    def at(field: str, found: str, remedy: str) -> Finding:
-        return Finding.error(Place("hazard", 0, field), f"{labels[field]} {found}", remedy)
+    def at(field: str, problem: str, remedy: str) -> Finding:
+        return Finding.error(Place("hazard", 0, field), f"{labels[field]} {problem}", remedy)
 
     has_points = bool(inputs["hazard_points"])
     if not (hazard.get("file") or has_points):

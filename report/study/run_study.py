@@ -123,11 +123,11 @@ def run_study(
 
 def _own(done: Mapping[int, Done]) -> dict[int, Done]:
     """Return the parts that are signed with the user's key; warn of others."""
-    others = [part for part in done.values() if not part.is_own]
-    if others:
+    unsigned = [part for part in done.values() if not part.is_own]
+    if unsigned:
         warnings.warn(
-            f"computed again: {numbered(len(others), 'part')} "
-            f"({sum(part.rows for part in others):,} runs) without the signature of your key, of "
+            f"computed again: {numbered(len(unsigned), 'part')} "
+            f"({sum(part.rows for part in unsigned):,} runs) without the signature of your key, of "
             f"another user or machine or changed by hand; {TRUST_PARTS} takes such parts over",
             stacklevel=3,
         )
@@ -160,7 +160,7 @@ def _meter(
         nonlocal ran
         ran += part.rows
         rate = ran / (time.monotonic() - started)
-        left = (rows - ran) / rate
-        progress(f"{ran:,} of {rows:,} runs, {rate:,.0f} a second, {left:.0f} s left")
+        left_s = (rows - ran) / rate
+        progress(f"{ran:,} of {rows:,} runs, {rate:,.0f} a second, {left_s:.0f} s left")
 
     return tell

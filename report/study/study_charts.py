@@ -47,15 +47,15 @@ def curves(
     along: str,
     low: float = -math.inf,
     limits: Sequence[tuple[str, Floats]] = (),
-    beside: Sequence[Floats] = (),
+    members: Sequence[Floats] = (),
 ) -> str:
     """Return a displacement [m] against an axis, a line for each member of a family.
 
     Up to `low`, a panel on the left has the same on a logarithmic axis. `limits` are thick lines;
-    `beside`, the mean PRD of each member [m], are thin ones.
+    `members`, the mean PRD of each member [m], are thin ones.
     """
     named = [(f"{label}: none" if np.isnan(v).all() else label, v / unit.si) for label, v in family]
-    means = [v / unit.si for v in beside if not np.isnan(v).all()]
+    means = [v / unit.si for v in members if not np.isnan(v).all()]
     with style():
         margins = {"left": 0.085, "right": 0.985, "above": 0.22, "below": 1.0}
         figure, (row,) = panels(1, 1 + (low > x[0]), 3.5, **margins, wspace=0.2)
@@ -101,15 +101,15 @@ def contours(
         figure, axes = boxed(6.7, (0.085, 0.08, 0.89, 0.9))
         grid, levels = (x, slopes_deg), _levels(unit)
         (second,) = {Quantity.DISPLACEMENT.us, Quantity.DISPLACEMENT.si} - {unit}
-        both: Any = {"other": lambda v: f" ({measured(v, second)} {second.symbol})"}
+        both: Any = {"suffix": lambda v: f" ({measured(v, second)} {second.symbol})"}
         allowed = allowed_m / unit.si
-        others = [value for value in levels if value != round(allowed, 6)]
+        thinner = [value for value in levels if value != round(allowed, 6)]
         axes.set_xlim(x[0], x[-1])
         axes.set_ylim(slopes_deg[0], slopes_deg[-1])
         thin: Any = {"colors": GRAY, "linewidths": 0.5, "linestyles": ":"}
         _contour(axes, grid, mean_m, levels, unit, height=0.08, **thin)
         _contour(
-            axes, grid, design_m, others, unit, height=0.47, colors=INK, linewidths=0.8, **both
+            axes, grid, design_m, thinner, unit, height=0.47, colors=INK, linewidths=0.8, **both
         )
         thick: Any = {"colors": ACCENT, "linewidths": 2.2}
         _contour(axes, grid, design_m, (allowed,), unit, height=0.9, **thick, **both)
@@ -125,19 +125,19 @@ def _contour(
     unit: Unit,
     *,
     height: float,
-    other: Callable[[float], str] = lambda _: "",
+    suffix: Callable[[float], str] = lambda _: "",
     **look: Any,
 ) -> None:
     """Draw the contours that a sheet has, with their labels from a share of its height on."""
-    shown = lengths_m / unit.si
-    if np.isnan(shown).all():
+    lengths = lengths_m / unit.si
+    if np.isnan(lengths).all():
         return
-    levels_shown = [v for v in levels if np.nanmin(shown) < v < np.nanmax(shown)]
-    if levels_shown:
-        drawn = axes.contour(*grid, shown, levels_shown, **look)
+    levels_drawn = [v for v in levels if np.nanmin(lengths) < v < np.nanmax(lengths)]
+    if levels_drawn:
+        drawn = axes.contour(*grid, lengths, levels_drawn, **look)
         labels = axes.clabel(
             drawn,
-            fmt=lambda v: f"{v:g} {unit.symbol}{other(v * unit.si)}",
+            fmt=lambda v: f"{v:g} {unit.symbol}{suffix(v * unit.si)}",
             inline_spacing=2,
             manual=list(_places(drawn, grid, height)),
         )
@@ -166,9 +166,9 @@ def _places(
 def _dense(line: Floats) -> Floats:
     """Return a line with many points, shape (m, 2)."""
     # Its own may all be at the edges, where no label is.
-    at = np.arange(len(line))
-    fine = np.linspace(0.0, at[-1], 300)
-    return np.stack([np.interp(fine, at, values) for values in line.T], axis=-1)
+    index = np.arange(len(line))
+    fine = np.linspace(0.0, index[-1], 300)
+    return np.stack([np.interp(fine, index, values) for values in line.T], axis=-1)
 
 
 def _levels(unit: Unit) -> tuple[float, ...]:
@@ -265,10 +265,10 @@ def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
                 linewidth=0.8,
             )  # fmt: skip
             ended = list(zip(ends, (bar.at_low, bar.at_high), strict=True))
-            for is_right, at in ((False, low), (True, high)):
-                here = [f"{v:.3g}" for end, v in ended if (end > center_m / unit.si) == is_right]
+            for is_right, position in ((False, low), (True, high)):
+                labels = [f"{v:.3g}" for end, v in ended if (end > center_m / unit.si) == is_right]
                 axes.annotate(
-                    ", ".join(here), (at, row), (3 if is_right else -3, 0),
+                    ", ".join(labels), (position, row), (3 if is_right else -3, 0),
                     textcoords="offset points", va="center", ha="left" if is_right else "right",
                 )  # fmt: skip
         axes.axvline(center_m / unit.si, color=INK, linewidth=1.0)
@@ -297,10 +297,10 @@ def rates(array_years: ArrayYears, curve: HazardCurve, unit: Unit, along: str) -
         left.axvspan(low, top, color=PALE, linewidth=0.0, zorder=0)
         left.set_xlim(0.2 * low, 2.0 * top)
         # The first limit is 0, which a logarithmic axis does not have.
-        shown = array_years.limits_m > 0.0
-        x = array_years.limits_m[shown] / unit.si
-        right.fill_between(x, *array_years.rates_band[:, shown], color=PALE, linewidth=0.0)
-        right.plot(x, array_years.rates[shown], color=INK, linewidth=1.2)
+        is_positive = array_years.limits_m > 0.0
+        x = array_years.limits_m[is_positive] / unit.si
+        right.fill_between(x, *array_years.rates_band[:, is_positive], color=PALE, linewidth=0.0)
+        right.plot(x, array_years.rates[is_positive], color=INK, linewidth=1.2)
         right.axvline(
             array_years.plan.array.clearance_m / unit.si, color=ACCENT, linestyle=LINES[1]
         )
@@ -328,13 +328,13 @@ def lives(array_years: ArrayYears, unit: Unit) -> str:
         clearance = array_years.plan.array.clearance_m / unit.si
         share = 1.0 - np.arange(LIVES) / LIVES
         # 400 of 100,000 lives, evenly in the logarithm: rare ones are seen, too.
-        shown = np.unique(np.geomspace(1, LIVES, 400).astype(int)) - 1
+        ranks = np.unique(np.geomspace(1, LIVES, 400).astype(int)) - 1
         for count, (name, distances) in enumerate(array_years.lives.items()):
             # Put back after each event, an array has no last distance.
-            for at, which in enumerate(("largest", "last")[: 1 + (name != ALWAYS)]):
-                ordered = np.sort(distances[at])[::-1][shown] / unit.si
+            for k, which in enumerate(("largest", "last")[: 1 + (name != ALWAYS)]):
+                ordered = np.sort(distances[k])[::-1][ranks] / unit.si
                 axes.plot(
-                    ordered, share[::-1][shown], color=(INK, ACCENT)[at], linestyle=LINES[count],
+                    ordered, share[::-1][ranks], color=(INK, ACCENT)[k], linestyle=LINES[count],
                     linewidth=1.2, label=f"{which}, put back {name}",
                 )  # fmt: skip
         axes.axvline(clearance, color=GRAY, linewidth=2.0, label="clearance")

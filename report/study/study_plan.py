@@ -159,12 +159,12 @@ class StudyPlan:
     @property
     def shape(self) -> tuple[int, int, int, int]:
         """Buildings, slopes, friction coefficients and intensities of the grid."""
-        given = self.input
+        study_input = self.input
         return (
             len(self.motions.buildings),
-            len(given.slopes_deg),
-            len(given.mus),
-            len(given.intensities),
+            len(study_input.slopes_deg),
+            len(study_input.mus),
+            len(study_input.intensities),
         )
 
     @cached_property

@@ -83,8 +83,8 @@ class StudyResults:
     def displacements(self) -> Mapping[str, Floats]:
         """The design displacement, and beside it the statistics of the PRD, by name."""
         c = self.curves
-        beside = zip(STATISTICS, (c.mean_m, c.p84_m, c.largest_m), strict=True)
-        return {self.plan.design_rule.name: self.design_m, **dict(beside)}
+        statistics = zip(STATISTICS, (c.mean_m, c.p84_m, c.largest_m), strict=True)
+        return {self.plan.design_rule.name: self.design_m, **dict(statistics)}
 
     @property
     def capacity_runs(self) -> int:
@@ -126,9 +126,9 @@ class StudyResults:
         rounded: Callable[[float], float],
     ) -> Floats:  # fmt: skip
         def answer(prd_m: Floats) -> float:
-            found = first_allowed(values, prd_m, allowed_m)
+            first = first_allowed(values, prd_m, allowed_m)
             # A value of the study was run as it is: rounded, it would be one that was not.
-            return found if found in values else rounded(found)
+            return first if first in values else rounded(first)
 
         # Slopes are looked at from the steepest on: their displacements are turned as they are.
         prd_m = self.displacements[name][building]
@@ -149,20 +149,20 @@ def results_of(
     campaign = plan.campaign
     on_grid = math.prod(plan.shape)
     on_curves: list[Statistics] = []
-    kept: list[Floats] = []
+    prds: list[Floats] = []
     slips: list[NDArray[np.bool_]] = []
     for number, part in enumerate(campaign.parts):
         prd, slip = peaks(read_part(folder, done[number]), campaign)
         # The grid comes first; one part may hold its last cases and the first of the arrays.
         cut = min(max(on_grid - part.start, 0), part.stop - part.start)
         on_curves.append(statistics(prd[:cut]))
-        kept.append(prd[cut:])
+        prds.append(prd[cut:])
         slips.append(slip[cut:])
     names = [field.name for field in fields(Statistics)]
-    whole = {name: np.concatenate([getattr(one, name) for one in on_curves]) for name in names}
-    curves = Statistics(**{name: values.reshape(plan.shape) for name, values in whole.items()})
+    merged = {name: np.concatenate([getattr(s, name) for s in on_curves]) for name in names}
+    curves = Statistics(**{name: values.reshape(plan.shape) for name, values in merged.items()})
     # Of the arrays alone: the grid of a large study, motion by motion, would fill the memory.
-    prd, slip = np.concatenate(kept), np.concatenate(slips)
+    prd, slip = np.concatenate(prds), np.concatenate(slips)
     # Motions are scaled to an intensity of 1, whatever its measure: the formula needs their peaks.
     ppa = np.array(
         [
@@ -195,13 +195,13 @@ def results_of(
     )
 
 
-def _metered(what: str, items: Sequence[_T], progress: Callable[[str], None]) -> Iterator[_T]:
+def _metered(noun: str, items: Sequence[_T], progress: Callable[[str], None]) -> Iterator[_T]:
     """Yield items, and say how many are done and the time left at their rate."""
     started = time.monotonic()
     for done, item in enumerate(items):
         left_s = (time.monotonic() - started) * (len(items) - done) / max(done, 1)
-        left = f", {left_s:.0f} s left" if done else ""
-        progress(f"computing the {what}: {done} of {len(items)}{left}")
+        remaining = f", {left_s:.0f} s left" if done else ""
+        progress(f"computing the {noun}: {done} of {len(items)}{remaining}")
         yield item
 
 
@@ -235,7 +235,7 @@ def _array(
     counts = ~lost if study.no_value is NoValue.CENSORED else np.ones_like(lost)
     reaches = array.array.reaches or "the object or edge"
     words = ("slip begins", "half the clearance is used", f"{reaches} is reached")
-    found, effects, runs = array_capacities(plan, array, runner, peaks_m)
+    capacities, effects, runs = array_capacities(plan, array, runner, peaks_m)
     states = [
         LimitState(
             name=f"LS{k + 1}",
@@ -246,7 +246,7 @@ def _array(
                 # A run without a value exceeds every limit; whether it counts is `counts`.
                 ~(peaks_m <= share * clearance) if share else slips | lost,
                 counts,
-                found[k],
+                capacities[k],
                 seed=array.seed,
             ),
             effects=effects[k],

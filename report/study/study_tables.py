@@ -45,11 +45,11 @@ def curves_csv(results: StudyResults) -> bytes:
          f"{plan.design_rule.name.replace(' ', '_')}_m", "mean_prd_m", "p84_prd_m",
          "largest_prd_m", "motions_without_value")
     ]  # fmt: skip
-    for case, at in _cases(results):
-        values = [float(lengths[at]) for lengths in results.displacements.values()]
+    for case, index in _cases(results):
+        values = [float(lengths[index]) for lengths in results.displacements.values()]
         # All digits: somebody computes with them.
-        shown = ["" if math.isnan(v) else repr(v) for v in values]
-        rows.append((*case, *shown, int(lost[at])))
+        cells = ["" if math.isnan(v) else repr(v) for v in values]
+        rows.append((*case, *cells, int(lost[index])))
     return csv_text(rows).encode()
 
 
@@ -72,8 +72,10 @@ def who(results: StudyResults, plan: ArrayPlan) -> tuple[str, str]:
     return results.plan.motions.buildings[plan.building], plan.array.id
 
 
-def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Row]]] = ()) -> bytes:
-    """Return the summaries as a workbook; `more` is title, heading and rows of further sheets."""
+def study_xlsx(
+    results: StudyResults, added: Iterable[tuple[str, Row, Iterable[Row]]] = ()
+) -> bytes:
+    """Return the summaries as a workbook; `added` are title, heading and rows of further sheets."""
     # Never a row for each run: a sheet of Excel has a million.
     buffer = io.BytesIO()
     unit, study_input = length_unit(results), results.plan.input
@@ -101,7 +103,7 @@ def study_xlsx(results: StudyResults, more: Iterable[tuple[str, Row, Iterable[Ro
         ("Fragility", _FRAGILITY, _fragilities(results, unit)),
         ("Probabilities", _EXCEEDANCES, _exceedances(results, unit)),
         ("Formula", ("Building", "What", "Value"), _formula(results)),
-        *more,
+        *added,
     ):
         sheet = book.add_worksheet(title)
         sheet.set_header(f"&R{SUPPORTING}" if results.years else "")
@@ -140,19 +142,19 @@ def _about(results: StudyResults) -> Iterator[Row]:
 
 def _curves(results: StudyResults, unit: Unit) -> Iterator[Row]:
     lost = results.curves.without_value
-    for case, at in _cases(results):
-        lengths = (float(values[at]) / unit.si for values in results.displacements.values())
-        yield *case, *lengths, int(lost[at])
+    for case, index in _cases(results):
+        lengths = (float(values[index]) / unit.si for values in results.displacements.values())
+        yield *case, *lengths, int(lost[index])
 
 
 def _answers(
-    results: StudyResults, along: Sequence[float], of: Callable[[int, str, float], Floats]
+    results: StudyResults, along: Sequence[float], answers: Callable[[int, str, float], Floats]
 ) -> Iterator[Row]:
     """Yield the answers for the allowed displacement, along an axis of the grid."""
     allowed_m, levels = results.plan.input.study.allowed_m, results.plan.input.intensities
     names = results.displacements if allowed_m else ()
     for (b, building), name in product(enumerate(results.plan.motions.buildings), names):
-        values = of(b, name, float(allowed_m or 0.0))
+        values = answers(b, name, float(allowed_m or 0.0))
         for (value, level), answer in zip(product(along, levels), values.ravel(), strict=True):
             yield building, name, value, level, float(answer)
 

@@ -146,8 +146,8 @@ def context(results: StudyResults) -> dict[str, Any]:
 def both(results: StudyResults, value_m: float) -> str:
     """Return a displacement or a clearance in both systems of units, rounded up; `none` if none."""
     # A clearance is rounded up, too: what is found for one holds for a larger one.
-    found = value_m if math.isfinite(value_m) else math.nan
-    return UnitFormat(results.plan.input.study.units_first.is_us).both(found, show=no_less)
+    known_m = value_m if math.isfinite(value_m) else math.nan
+    return UnitFormat(results.plan.input.study.units_first.is_us).both(known_m, show=no_less)
 
 
 def level(results: StudyResults, value: float) -> str:
@@ -175,8 +175,8 @@ def taken_over(results: StudyResults) -> list[str]:
 def headline(results: StudyResults) -> list[str]:
     """Return the main results, one line each."""
     levels = results.plan.input.intensities
-    more = {"middle": levels[len(levels) // 2], "steepest": list(_steepest(results))}
-    return _lines("headline", context(results) | more)
+    facts = {"middle": levels[len(levels) // 2], "steepest": list(_steepest(results))}
+    return _lines("headline", context(results) | facts)
 
 
 def _lines(macro: str, values: Mapping[str, Any]) -> list[str]:

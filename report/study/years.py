@@ -81,8 +81,8 @@ class ArrayYears:
     @property
     def clearance_rates(self) -> Floats:
         """Annual rate at which the clearance is exceeded, and its quantiles, shape (3,)."""
-        at = int(np.searchsorted(self.limits_m, self.plan.array.clearance_m))
-        return np.array([self.rates[at], *self.rates_band[:, at]])
+        index = int(np.searchsorted(self.limits_m, self.plan.array.clearance_m))
+        return np.array([self.rates[index], *self.rates_band[:, index]])
 
     @property
     def recurrences(self) -> list[tuple[float, ...]]:
@@ -102,8 +102,8 @@ class ArrayYears:
     @property
     def statistics(self) -> Mapping[str, tuple[LifeStatistics, LifeStatistics]]:
         """Of the largest and the last distance, by when the array is put back."""
-        of = partial(life_statistics, clearance_m=self.plan.array.clearance_m)
-        return {name: (of(lives[0]), of(lives[1])) for name, lives in self.lives.items()}
+        measure = partial(life_statistics, clearance_m=self.plan.array.clearance_m)
+        return {name: (measure(lives[0]), measure(lives[1])) for name, lives in self.lives.items()}
 
 
 def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runner) -> ArrayYears:
@@ -113,7 +113,7 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
     mus = predicted[0].quantiles if predicted else (array.mu,)
     slope_deg, motions = array.array.slope_deg, len(runner.campaign.motions[0])
     # The first coefficient is the least: below the intensity at which it slips nothing moves.
-    slip = min(one.first_slip() for one in curves_of(runner, array, mus[0], slope_deg))
+    slip = min(track.first_slip() for track in curves_of(runner, array, mus[0], slope_deg))
     tracks = runner.tracks[array.building]
     lifted = [uplift_intensity(track, math.radians(slope_deg)) for track in tracks]
     # A run beyond uplift has no value: such events count as beyond every limit.

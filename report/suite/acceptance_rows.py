@@ -29,12 +29,12 @@ def acceptance_lines(rows: Sequence[Limit]) -> list[str]:
     """Return a line for each row: OK or what follows, title, value found, limit, where."""
     lines = []
     for row in rows:
-        found, limit = limit_texts(row, us_first=True)  # none is a length
+        value, limit = limit_texts(row, us_first=True)  # none is a length
         where = f" ({row.worst})" if row.worst else ""
         ours = "; not a code requirement, limit set by this program"
         lines.append(
             f"{'OK' if row.ok else row.consequence.value}: {row.title}: "
-            f"{found}, {'at least' if row.is_at_least else 'at most'} {limit}{where}"
+            f"{value}, {'at least' if row.is_at_least else 'at most'} {limit}{where}"
             f"{ours if row.is_program_limit else ''}"
         )
     return lines

@@ -92,11 +92,11 @@ def read_target(named: str) -> TargetTable:
 
 
 def _split(named: str) -> tuple[Path, str]:
-    whole = re.fullmatch(r"(.*?\.xlsx)!(.*)", named, re.IGNORECASE | re.DOTALL)
+    match = re.fullmatch(r"(.*?\.xlsx)!(.*)", named, re.IGNORECASE | re.DOTALL)
     # A file may have an exclamation mark in its own name.
-    if whole is None or Path(named).is_file():
+    if match is None or Path(named).is_file():
         return Path(named), ""
-    return Path(whole[1]), whole[2].strip().strip("'")
+    return Path(match[1]), match[2].strip().strip("'")
 
 
 def _title(book: OpenBook, sheet: str) -> str:
@@ -106,10 +106,10 @@ def _title(book: OpenBook, sheet: str) -> str:
     for title in titles:
         if title.casefold() == sheet.casefold():
             return title
-    name, there = book.path.name, ", ".join(f"'{title}'" for title in titles[:MAX_TOLD])
+    name, listed = book.path.name, ", ".join(f"'{title}'" for title in titles[:MAX_TOLD])
     if not sheet:
-        raise InputError(f"{name}: has {len(titles)} sheets; give {name}!Sheet, one of {there}")
-    raise InputError(f"{name}: has no sheet '{sheet}'; give one of {there}")
+        raise InputError(f"{name}: has {len(titles)} sheets; give {name}!Sheet, one of {listed}")
+    raise InputError(f"{name}: has no sheet '{sheet}'; give one of {listed}")
 
 
 def _sheet_rows(book: OpenBook, title: str) -> _Rows:
@@ -128,8 +128,8 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
 
 def _text_rows(path: Path) -> _Rows:
     if not path.is_file():
-        wanted = f"give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
-        raise InputError(f"{path}: no such file; {meant(path) or wanted}")
+        remedy = f"give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
+        raise InputError(f"{path}: no such file; {meant(path) or remedy}")
     # Neither units nor a step: they are those of a record.
     lines = open_source(path, units="", dt_s=math.nan).lines
     try:
@@ -159,9 +159,9 @@ def _table(source: str, rows: _Rows) -> TargetTable:
     if not problems:
         problems = list(_range_problems(source, _frequencies(values)))
     if problems:
-        more = len(problems) - MAX_TOLD
-        others = [Problem(f"... and {more} more")] if more > 0 else []
-        raise InputError(problems[:MAX_TOLD] + others)
+        unlisted = len(problems) - MAX_TOLD
+        summary = [Problem(f"... and {unlisted} more")] if unlisted > 0 else []
+        raise InputError(problems[:MAX_TOLD] + summary)
     return _sorted(source, values)
 
 
@@ -182,8 +182,8 @@ def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
 def _heading(cell: Found) -> tuple[str, str]:
     """Return the kind of a column and its unit in small letters; each empty if there is none."""
     text = cell.shown.strip().casefold()
-    if whole := _HEADING.fullmatch(text):
-        return _NAMES.get(whole[1], ""), whole[2]
+    if match := _HEADING.fullmatch(text):
+        return _NAMES.get(match[1], ""), match[2]
     # One that begins as a column that is read is not ignored: what it says is no unit.
     return _NAMES.get(text.partition(" ")[0], ""), text
 
@@ -194,15 +194,15 @@ def _columns(
     problems, columns = [], {}
     for cell in above:
         if is_of_another(cell.shown):
-            wanted = "give accelerations in g, or delete a line that is not of the columns"
-            problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", wanted, cell.address))
+            remedy = "give accelerations in g, or delete a line that is not of the columns"
+            problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", remedy, cell.address))
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:
             continue
         due = _KINDS[kind][1].unit
         if unit not in ("", due.casefold()):
-            wanted = f"give {kind} [{due}]"
-            problems.append(Problem(f"is '{cell.shown.strip()}'", wanted, cell.address))
+            remedy = f"give {kind} [{due}]"
+            problems.append(Problem(f"is '{cell.shown.strip()}'", remedy, cell.address))
         if kind in columns:
             problems.append(Problem(f"a second {kind} column", "delete one", cell.address))
         columns[kind] = column
@@ -221,10 +221,10 @@ def _value(row: Sequence[Found], column: int, kind: str, problems: list[Problem]
         problems.append(Problem(f"{kind} is blank", "give a number greater than 0", place))
         return float("nan")
     bounds = _KINDS[kind][1]
-    cell, wanted = row[column], f"give a number greater than 0 [{bounds.unit}]"
+    cell, remedy = row[column], f"give a number greater than 0 [{bounds.unit}]"
     try:
         check_saved(cell)
-        value = number(cell, wanted, bounds.unit)
+        value = number(cell, remedy, bounds.unit)
     except CellError as error:
         problems.append(error.parts[0].at(cell.address, kind))
         return float("nan")
@@ -247,14 +247,14 @@ def _range_problems(source: str, freq_hz: Floats) -> Iterator[Problem]:
     # Two ordinates at one frequency: interpolated, the slope between them has no end.
     apart = np.diff(np.sort(freq_hz)) > 1e-9 * np.sort(freq_hz)[1:]
     if not apart.all():
-        at = float(np.sort(freq_hz)[1:][~apart][0])
-        fault = f"{at:g} Hz ({1 / at:g} s) appears twice"
+        repeated_hz = float(np.sort(freq_hz)[1:][~apart][0])
+        fault = f"{repeated_hz:g} Hz ({1 / repeated_hz:g} s) appears twice"
         yield Problem(fault, "give each frequency once", source)
     low, high = BAND_HZ[0] * (1.0 + _ROUNDED), BAND_HZ[1] * (1.0 - _ROUNDED)
     if freq_hz.min() > low or freq_hz.max() < high:
-        wanted = f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz (periods from 0.03 to 3.33 s) or more"
+        band = f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz (periods from 0.03 to 3.33 s) or more"
         fault = f"covers {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz"
-        yield Problem(fault, f"give {wanted}", source)
+        yield Problem(fault, f"give {band}", source)
 
 
 def _sorted(source: str, values: Mapping[str, Floats]) -> TargetTable:

@@ -229,7 +229,7 @@ def check_only_blank(source: Source, first: int, stop: int, before: str) -> None
 
 
 def end_of_values(
-    source: Source, lines: range, is_mark: Callable[[str], object], words: str, of: str
+    source: Source, lines: range, is_mark: Callable[[str], object], words: str, noun: str
 ) -> tuple[int, tuple[str, ...]]:
     """Index of the line that ends the values of a series or a channel, with a note if none does.
 
@@ -237,7 +237,7 @@ def end_of_values(
     """
     for index in lines:
         if is_mark(source.lines[index]):
-            check_only_blank(source, index + 1, lines.stop, f"the end of a {of}")
+            check_only_blank(source, index + 1, lines.stop, f"the end of a {noun}")
             return index, ()
     note = f"no end-of-data line{words} follows the values: the file may be truncated"
     return lines.stop, (note,)

@@ -63,15 +63,15 @@ class Layout:
     def seconds(self) -> float:
         """Value [s] of the unit of the times in the first column."""
         heading = self.headings[0] if self.headings else parse("")
-        at = self.source.at(self.heading_index)
+        place = self.source.at(self.heading_index)
         if heading.is_index:
             raise InputError(
-                f"{at}: found {shown(heading.text)} over the first column; give times in seconds,"
-                " such as time_s, or delete the column and give the time step dt"
+                f"{place}: found {shown(heading.text)} over the first column; give times in"
+                " seconds, such as time_s, or delete the column and give the time step dt"
             )
         if math.isnan(heading.seconds):
             raise InputError(
-                f"{at}: found times in {shown(heading.unit)}; give them in s, ms or min, such as"
+                f"{place}: found times in {shown(heading.unit)}; give them in s, ms or min, such as"
                 " time_s"
             )
         return heading.seconds

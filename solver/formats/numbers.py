@@ -160,10 +160,10 @@ def is_cut_short(fields: Sequence[str]) -> bool:
 
     They are the last ones of a file, at most `COMPARED`.
     """
-    *others, last = map(_digits, fields)
+    *before, last = map(_digits, fields)
     # Whole numbers have no decimals that a cut could take.
-    is_even = len(others) >= _ENOUGH and len({*others}) == 1 and others[0][0] > 0
-    return is_even and last < others[0]
+    is_even = len(before) >= _ENOUGH and len({*before}) == 1 and before[0][0] > 0
+    return is_even and last < before[0]
 
 
 def _digits(field: str) -> tuple[int, int]:

@@ -247,17 +247,17 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
     is_headed = any(heading.kind is Kind.ACCELERATION for heading in layout.headings)
     is_said = is_headed or any(phrases.is_of_acceleration(line) for _, line in layout.remarks)
     for index, line in layout.remarks:
-        at = layout.source.at(index)
+        place = layout.source.at(index)
         if is_positive and phrases.is_of_a_spectrum(line):
             raise InputError(
-                f"{at}: found {shown(line)} above values of which none is negative: this is a"
+                f"{place}: found {shown(line)} above values of which none is negative: this is a"
                 " spectrum, no record; give accelerations by time"
             )
-        if not is_said and (other := phrases.other_quantity(line)):
+        if not is_said and (quantity := phrases.other_quantity(line)):
             heading = "acc_g" if table.shape[1] == 1 else "time_s,acc_g"
             raise InputError(
-                f"{at}: found {other!r}, and no acceleration; give the file of acceleration, or a"
-                f" heading such as {heading} if the values are accelerations"
+                f"{place}: found {quantity!r}, and no acceleration; give the file of acceleration,"
+                f" or a heading such as {heading} if the values are accelerations"
             )
 
 

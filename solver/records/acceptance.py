@@ -295,8 +295,8 @@ def motion_strength(motion: Motion, hold_s: float) -> MotionStrength:
         hold_s=hold_s,
         strengths={name: strength(record) for name, record in records.items()},
         correlations={
-            f"{name}-{other}": correlation(records[name], records[other])
-            for name, other in combinations(records, 2)
+            f"{name}-{second}": correlation(records[name], records[second])
+            for name, second in combinations(records, 2)
         },
     )
 

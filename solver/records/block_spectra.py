@@ -41,7 +41,7 @@ def spectra(a_mps2: Floats, dt_s: float, periods_s: Floats) -> Floats:
     omega = 2.0 * math.pi / periods_s
     steps = steps_per_interval(dt_s, omega)
     ordinates = np.empty((len(a_mps2), omega.size))
-    inputs, left = _inputs(a_mps2)
+    inputs, last_steps = _inputs(a_mps2)
     largest = np.abs(a_mps2).max(1)
     for step_count in np.unique(steps).tolist():
         (some,) = np.nonzero(steps == step_count)
@@ -50,7 +50,7 @@ def spectra(a_mps2: Floats, dt_s: float, periods_s: Floats) -> Floats:
         states = _states(responses[:, -1], inputs[2:])
         for column, p, response, state in zip(some, radians, responses, states, strict=True):
             inputs[:2] = state
-            ordinates[:, column] = _peaks(response, p, inputs, left * step_count, largest)
+            ordinates[:, column] = _peaks(response, p, inputs, last_steps * step_count, largest)
     return ordinates
 
 
@@ -74,15 +74,15 @@ def _responses(p: Floats, steps: int) -> Floats:
 
     Steps p [rad]; shape (m, 1 + steps * _BLOCK, 2, 2 + _BLOCK + 1).
     """
-    free, before, now = _step(p)
+    free, from_start, from_end = _step(p)
     made = np.zeros((p.size, 1 + steps * _BLOCK, 2, _BLOCK + 3))
     made[:, 0, 0, 0] = made[:, 0, 1, 1] = 1.0
     for i in range(steps * _BLOCK):
         made[:, i + 1] = free @ made[:, i]
         first = 2 + i // steps
         start, end = (i % steps) / steps, (i % steps + 1) / steps
-        made[:, i + 1, :, first] += (1.0 - start) * before + (1.0 - end) * now
-        made[:, i + 1, :, first + 1] += start * before + end * now
+        made[:, i + 1, :, first] += (1.0 - start) * from_start + (1.0 - end) * from_end
+        made[:, i + 1, :, first + 1] += start * from_start + end * from_end
     return made
 
 
@@ -120,12 +120,12 @@ def _states(end: Floats, samples: Floats) -> Floats:
     return states
 
 
-def _peaks(response: Floats, p: float, inputs: Floats, left: int, largest: Floats) -> Floats:
+def _peaks(response: Floats, p: float, inputs: Floats, last_steps: int, largest: Floats) -> Floats:
     """Return the largest |y| of records, shape (c,), with `left` steps in their last block."""
     # The longest step, to a power of two, that is 1/16 of a period at most.
     stride = 2 ** int(math.log2(min(max(2.0 * math.pi / PEAK_FINENESS / p, 1.0), _BLOCK)))
     y = np.tensordot(response[stride::stride, 0], inputs, 1)
-    y[left // stride :, :, -1] = 0.0
+    y[last_steps // stride :, :, -1] = 0.0
     highest = np.maximum(np.abs(y, out=y).max(0), np.abs(inputs[0]))
     peaks: Floats = highest.max(1)
     # From one of these to the next the response bends by y'' = -y - 2 zeta y' - a, and so do the
@@ -137,7 +137,7 @@ def _peaks(response: Floats, p: float, inputs: Floats, left: int, largest: Float
     y, z = (response @ inputs[:, record, block]).transpose(1, 0, 2)
     rate = p if p <= 1.0 else 0.0  # over a longer step the cubic would invent peaks
     tops = _tops(y[:-1], y[1:], rate * z[:-1], rate * z[1:])
-    tops[left:, block == near.shape[1] - 1] = 0.0
+    tops[last_steps:, block == near.shape[1] - 1] = 0.0
     np.maximum.at(peaks, record, tops.max(0))
     return peaks
 

@@ -66,9 +66,9 @@ def strength(record: Record) -> Strength:
     )
 
 
-def correlation(record: Record, other: Record) -> float:
+def correlation(record: Record, second: Record) -> float:
     """Correlation coefficient of two records of equal step and length; 0 if either is constant."""
-    a, b = record.a_mps2 - record.a_mps2.mean(), other.a_mps2 - other.a_mps2.mean()
+    a, b = record.a_mps2 - record.a_mps2.mean(), second.a_mps2 - second.a_mps2.mean()
     product = math.sqrt(float(a @ a) * float(b @ b))
     return float(a @ b) / product if product > 0.0 else 0.0
 
@@ -162,13 +162,13 @@ def _cumulative(a: Floats, dt: float) -> Floats:
     return _summed(dt / 3.0 * (before * before + before * after + after * after))
 
 
-def _time_of(a: Floats, dt: float, cumulative: Floats, wanted: float) -> float:
+def _time_of(a: Floats, dt: float, cumulative: Floats, target: float) -> float:
     """Time at which the integral of a^2 reaches the value wanted."""
     # Within an interval the integral is (c^3 - a^3) / (3 r), where c is the acceleration at the
     # time x and c - a = r x. Factoring out c - a gives x without cancellation.
-    i = max(int(np.searchsorted(cumulative, wanted)) - 1, 0)
+    i = max(int(np.searchsorted(cumulative, target)) - 1, 0)
     start, r = float(a[i]), float(a[i + 1] - a[i]) / dt
-    missing = 3.0 * (wanted - float(cumulative[i]))
+    missing = 3.0 * (target - float(cumulative[i]))
     c = float(np.cbrt(start**3 + r * missing))
     below = c * c + c * start + start * start
     return i * dt + (missing / below if below > 0.0 else 0.0)

@@ -138,10 +138,10 @@ def process_together(records: Sequence[Record], processing: Processing) -> tuple
     """Process all components of one motion in the same way, with equal steps and lengths."""
     first = records[0]
     problems = [
-        f"{other.name}: {len(other.a_mps2)} samples of {other.dt_s:g} s, but {first.name} has "
+        f"{later.name}: {len(later.a_mps2)} samples of {later.dt_s:g} s, but {first.name} has "
         f"{len(first.a_mps2)} of {first.dt_s:g} s; give components of one length and step"
-        for other in records[1:]
-        if (len(other.a_mps2), other.dt_s) != (len(first.a_mps2), first.dt_s)
+        for later in records[1:]
+        if (len(later.a_mps2), later.dt_s) != (len(first.a_mps2), first.dt_s)
     ]
     raise_any(problems)
     return tuple(process(record, processing) for record in records)
@@ -240,8 +240,8 @@ def _is_whole(ratio: float) -> bool:
     return _is_near(ratio, round(ratio))
 
 
-def _is_near(ratio: float, wanted: float) -> bool:
-    return abs(ratio - wanted) <= 1e-9 * wanted
+def _is_near(ratio: float, target: float) -> bool:
+    return abs(ratio - target) <= 1e-9 * target
 
 
 def _trim_words(processing: Processing) -> str:

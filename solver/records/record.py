@@ -201,19 +201,19 @@ def _off(values: Floats, decimals: int) -> float:
 def check_gaps(name: str, a_mps2: Floats) -> None:
     """Refuse a record with a code for missing data: nines far above all other samples."""
     size = np.abs(a_mps2)
-    at = int(size.argmax())
+    index = int(size.argmax())
     # A code repeats: all samples of its size are set aside.
-    smaller = size[np.abs(size - size[at]) > 1e-9 * size[at]]
+    smaller = size[np.abs(size - size[index]) > 1e-9 * size[index]]
     usual = float(smaller.max(initial=0.0))
-    if size[at] <= _ALONE * usual:
+    if size[index] <= _ALONE * usual:
         return
-    values = [f"{a_mps2[at] / unit:.7g}" for unit in UNITS.values()]
+    values = [f"{a_mps2[index] / unit:.7g}" for unit in UNITS.values()]
     codes = [value for value in values if _CODES.fullmatch(value)]
-    if size[at] > _NO_SHAKING_G * UNITS["g"]:
+    if size[index] > _NO_SHAKING_G * UNITS["g"]:
         codes += _SHORT_CODES.intersection(values)
     if codes:
         raise InputError(
-            f"{name}: sample {at + 1:,} is {min(codes, key=len)} where no other exceeds"
+            f"{name}: sample {index + 1:,} is {min(codes, key=len)} where no other exceeds"
             f" {usual / UNITS['g']:.3g} g: it is a code for missing data; give a record without"
             " gaps"
         )

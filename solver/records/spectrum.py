@@ -141,9 +141,9 @@ def response_spectrum(
     steps = steps_per_interval(dt_s, np.where(rigid, 0.0, omega))
     for step_count in np.unique(steps[~rigid]).tolist():
         some = ~rigid & (steps == step_count)
-        peak, at = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
+        peak, peak_index = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
         fine = read_only(refined(a, step_count))
-        oscillator.peaks(fine, dt_s / step_count, omega[some], float(damping), peak, at)
+        oscillator.peaks(fine, dt_s / step_count, omega[some], float(damping), peak, peak_index)
         spectrum[some] = np.abs(peak)
     return spectrum
 

@@ -238,7 +238,7 @@ def is_in_range(push_mps2: float, dt_s: float, lasts_s: float) -> bool:
 
 
 def checked_number(
-    name: str, value: object, wanted: str, fits: Callable[[float], bool], problems: list[str]
+    name: str, value: object, accepted: str, fits: Callable[[float], bool], problems: list[str]
 ) -> float:
     """Return the value as a float, or NaN with a problem added; text and booleans are refused."""
     # A difference of dates is a number to numpy.
@@ -250,7 +250,7 @@ def checked_number(
             number = math.nan
         if fits(number):
             return number
-    problems.append(f"{name} is {shown(value)}; give {wanted}")
+    problems.append(f"{name} is {shown(value)}; give {accepted}")
     return math.nan
 
 

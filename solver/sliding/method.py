@@ -183,8 +183,8 @@ EXACT = Method(
 
 def methods() -> Mapping[str, Method]:
     """Return every method by its name, the exact one first."""
-    found: Mapping[str, Method] = import_module(_RIVALS).METHODS
-    return found
+    by_name: Mapping[str, Method] = import_module(_RIVALS).METHODS
+    return by_name
 
 
 _WHOLE = "a whole number of 1 or more"

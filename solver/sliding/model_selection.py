@@ -253,16 +253,16 @@ def _told(
     if both is None:
         has_second = scene.ay_mps2.any()
         both = two_axes.run(scene, settings.tolerance) if has_second else vertical
-    less, lesser = _left_out(vertical, both), _left_out(level, vertical, both)
+    crosswise, lesser = _left_out(vertical, both), _left_out(level, vertical, both)
     bound = _mm(settings.bound_m(vertical.prd_m))
     if model is Model.ONE_AXIS:
         return f"no other component changes a displacement by more than {bound}", lesser
     if model is Model.ONE_AXIS_VERTICAL:
         neglecting, changed = "neglecting the vertical component", lesser
     else:
-        neglecting, changed = "neglecting the second horizontal component", less
+        neglecting, changed = "neglecting the second horizontal component", crosswise
     why = f"{neglecting} changes a displacement by {_mm(changed)}, more than {bound}"
-    return why, less if scene.ay_mps2.size and model is Model.ONE_AXIS_VERTICAL else math.nan
+    return why, crosswise if scene.ay_mps2.size and model is Model.ONE_AXIS_VERTICAL else math.nan
 
 
 def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:

@@ -146,9 +146,9 @@ def sweep(
     problems: list[str] = []
     axes = _checked_axes(slopes_rad, mus, scales, problems)
     g = _above_zero("g_mps2", g_mps2, problems)
-    given = _components(ax_mps2, ay_mps2, az_mps2, dt_s, units, problems)
+    components = _components(ax_mps2, ay_mps2, az_mps2, dt_s, units, problems)
     raise_any(problems)
-    (swept,) = _swept([given], axes, g, progress or _told_nobody)
+    (swept,) = _swept([components], axes, g, progress or _told_nobody)
     return swept
 
 
@@ -192,14 +192,14 @@ def sweep_all(
     problems: list[str] = []
     axes = _checked_axes(slopes_rad, mus, scales, problems)
     g = _above_zero("g_mps2", g_mps2, problems)
-    given = []
+    components = []
     for n, record in enumerate(records, start=1):
         if isinstance(record, Record | Motion):
-            given.append(_components(record, None, None, None, None, problems))
+            components.append(_components(record, None, None, None, None, problems))
         else:
             problems.append(f"record {n} is {shown(record)}; give records or motions")
     raise_any(problems)
-    return _swept(given, axes, g, progress or _told_nobody)
+    return _swept(components, axes, g, progress or _told_nobody)
 
 
 class _Given(NamedTuple):
@@ -247,34 +247,35 @@ def _told_nobody(share: float) -> None:
 
 
 def _swept(
-    given: Sequence[_Given], axes: list[Floats], g_mps2: float, progress: Callable[[float], None]
+    records: Sequence[_Given], axes: list[Floats], g_mps2: float, progress: Callable[[float], None]
 ) -> list[Sweep]:
     """Run all combinations for each of the records."""
     _, mu, scale = (float(np.abs(axis).max()) for axis in axes)
     # The scenes of the largest values: if these do not overflow, none does.
     largest = [
         Scene(
-            ax_mps2=each.ax,
-            ay_mps2=each.ay,
-            az_mps2=each.az,
-            dt_s=each.dt_s,
+            ax_mps2=record.ax,
+            ay_mps2=record.ay,
+            az_mps2=record.az,
+            dt_s=record.dt_s,
             slope_rad=0.0,
             friction=coulomb(mu),
-            scale=scale * abs(each.factor),
+            scale=scale * abs(record.factor),
             g_mps2=g_mps2,
         )
-        for each in given
+        for record in records
     ]
     raise_any(chain.from_iterable(map(overflow, largest)))
-    count = len(given) * math.prod(axis.size for axis in axes)
-    in_plane = any(each.ay.size for each in given)
+    count = len(records) * math.prod(axis.size for axis in axes)
+    in_plane = any(record.ay.size for record in records)
     # To start the threads takes as long as some 200 runs in one axis.
     threads = ThreadPoolExecutor(THREADS) if in_plane or count >= _MANY else None
     swept = []
     try:
-        for n, (each, scene) in enumerate(zip(given, largest, strict=True)):
-            follow = _run_in_plane if each.ay.size else _run
-            swept.append(follow(scene, axes, each.factor, threads, _share(progress, n, len(given))))
+        for n, (record, scene) in enumerate(zip(records, largest, strict=True)):
+            follow = _run_in_plane if record.ay.size else _run
+            share = _share(progress, n, len(records))
+            swept.append(follow(scene, axes, record.factor, threads, share))
     finally:
         if threads:
             threads.shutdown(cancel_futures=True)

@@ -234,9 +234,9 @@ RANDOM, ROOF = "random records", "records of section 2"
 """The kinds of `rival_errors`."""
 
 
-def _block(name: str, ax: Floats, az: Floats | None, **given: float) -> KnownBlock:
+def _block(name: str, ax: Floats, az: Floats | None, **arguments: float) -> KnownBlock:
     vertical = None if az is None else az.tolist()
-    known = {"g_mps2": STANDARD_GRAVITY_MPS2} | given
+    known = {"g_mps2": STANDARD_GRAVITY_MPS2} | arguments
     exact = reference.slide(ax.tolist(), az_mps2=vertical, **known)
     return KnownBlock(name, {"ax_mps2": ax, "az_mps2": az, "units": "m/s2"} | known, exact)
 
@@ -247,9 +247,9 @@ def roof_blocks(record: Record) -> Iterator[KnownBlock]:
     for k, case in enumerate(CASES):
         place = {"dt_s": record.dt_s, "slope_rad": case.slope_rad, "mu": case.mu}
         shaken = [("", None), (", with vertical shaking", 0.3 * ax[::-1])]
-        for more, az in shaken if k in (1, 3) else shaken[:1]:
+        for suffix, az in shaken if k in (1, 3) else shaken[:1]:
             scale = scale_to(record, case.ppa_g)
-            yield _block(f"{record.name}, {case}{more}", ax, az, scale=scale, **place)
+            yield _block(f"{record.name}, {case}{suffix}", ax, az, scale=scale, **place)
 
 
 def random_blocks() -> Iterator[KnownBlock]:

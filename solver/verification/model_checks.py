@@ -154,23 +154,23 @@ def stopped_scene() -> Scene:
 def _stop() -> Iterator[Verified]:
     scene = stopped_scene()
     history = two_axes.run_history(scene, TIGHT)
-    at, push, c = 6, 2.0, 0.4 * STANDARD_GRAVITY_MPS2
-    vx, vy = float(history.v_mps[at]), float(history.across_mps[at])
+    start, push, c = 6, 2.0, 0.4 * STANDARD_GRAVITY_MPS2
+    vx, vy = float(history.v_mps[start]), float(history.across_mps[start])
     w, along = math.hypot(vx, vy), push * vy
-    less = c * c - push * push
-    rest = (c * w + along) / less
-    ahead = (w * w + (2.0 * c * w * along + along * along) / push**2) / (4.0 * less) * push
+    decay = c * c - push * push
+    stop = (c * w + along) / decay
+    ahead = (w * w + (2.0 * c * w * along + along * along) / push**2) / (4.0 * decay) * push
     aside = -push * vx * (2.0 * c * w + along) / (push * (4.0 * c * c - push * push))
     name = "Sliding block stops under a transverse acceleration of 2 m/s2, mu = 0.4, flat roof"
     source = (
         "(v (mu N + G cos ψ))' = G^2 - (mu N)^2, ψ = angle from drive G to v, and similar forms "
         "for displacement, from 0.06 s"
     )
-    stop_s = history.events[-1].t_s - at * scene.dt_s
-    across_m = float(history.across_m[-1] - history.across_m[at])
-    along_m = float(history.u_m[-1] - history.u_m[at])
+    stop_s = history.events[-1].t_s - start * scene.dt_s
+    across_m = float(history.across_m[-1] - history.across_m[start])
+    along_m = float(history.u_m[-1] - history.u_m[start])
     for quantity, unit, known, computed in (
-        ("Time to stop", "s", rest, stop_s),
+        ("Time to stop", "s", stop, stop_s),
         ("Transverse displacement", "m", ahead, across_m),
         ("Longitudinal displacement", "m", -aside, along_m),
     ):

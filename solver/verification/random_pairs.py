@@ -147,15 +147,15 @@ def _horizontal(rng: Random, n: int, peak: float) -> tuple[Floats, Floats]:
 
 
 def _held_down(
-    rng: Random, ax: Floats, az: Floats, slope_rad: float, least: float | None
+    rng: Random, ax: Floats, az: Floats, slope_rad: float, min_normal: float | None
 ) -> Floats:
     """Return a vertical record whose least normal force is `least` [g]; None: 0.05 g or more."""
     sn, cs = math.sin(slope_rad), math.cos(slope_rad)
     lowest = ((G + (az if az.size else 0.0)) * cs + ax * sn).min()
-    if least is None and lowest >= 0.05 * G:
+    if min_normal is None and lowest >= 0.05 * G:
         return az
     az = az if az.size else np.zeros(ax.size)
-    floor = 0.05 * G if least is None else least * G
+    floor = 0.05 * G if min_normal is None else min_normal * G
     if rng.random() < 0.5:
         az = az + (floor - lowest) / cs
     else:

@@ -47,7 +47,7 @@ def slide(
         a_v = [factor * Decimal(a) for a in az_mps2] if az_mps2 is not None else [_ZERO] * len(a_h)
         sine, cosine = _sine_and_cosine(theta)
         block = _Block(dt)
-        at = {
+        samples = {
             sign: [
                 _relative(sign, h, g + v, sine, cosine, friction)
                 for h, v in zip(a_h, a_v, strict=True)
@@ -56,7 +56,7 @@ def slide(
         }
         # For slip of one sign u'' is linear between samples, as a_h and a_v are.
         for i in range(len(a_h) - 1):
-            block.follow({sign: (a[i], (a[i + 1] - a[i]) / dt) for sign, a in at.items()})
+            block.follow({sign: (a[i], (a[i + 1] - a[i]) / dt) for sign, a in samples.items()})
         return Reference(float(max(block.high, -block.low)), float(block.u))
 
 

@@ -105,12 +105,12 @@ def _parts(source: Source) -> list[_Part]:
     borders = sorted([*headings, *(i for i, _ in lines), len(source.lines)])
     return [
         _Part(
-            first=headings[bisect_right(headings, at) - 1],
-            at=at,
-            stop=borders[bisect_right(borders, at)],
+            first=headings[bisect_right(headings, mark_index) - 1],
+            at=mark_index,
+            stop=borders[bisect_right(borders, mark_index)],
             line=match,
         )
-        for at, match in lines
+        for mark_index, match in lines
     ]
 
 

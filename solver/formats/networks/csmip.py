@@ -130,9 +130,9 @@ def _channel(source: Source, part: range, volume: _Volume) -> Record:
             f"{source.at(part.start)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
             " ...; give the whole file"
         )
-    at, peak = _search(source, part, volume.peak) or (part.start, None)
-    peak_mps2 = printed(peak[1], at).value * unit_size(peak[2]) if peak else 0.0
-    notes = (*record.notes, *channels.peak_notes(source, at, peak_mps2, record.a_mps2))
+    peak_index, peak = _search(source, part, volume.peak) or (part.start, None)
+    peak_mps2 = printed(peak[1], peak_index).value * unit_size(peak[2]) if peak else 0.0
+    notes = (*record.notes, *channels.peak_notes(source, peak_index, peak_mps2, record.a_mps2))
     if volume is _ONE:
         notes += channels.offset_notes(record.a_mps2)
     # USC writes the length of a line in its columns 73 to 80.
@@ -178,38 +178,38 @@ def _values_of_one(source: Source, part: range) -> Record:
 
 
 def _even_values(
-    source: Source, part: range, volume: _Volume, at: int, line: re.Match[str]
+    source: Source, part: range, volume: _Volume, index: int, line: re.Match[str]
 ) -> Record:
     """Evenly spaced values after a line with their count, rate or step, unit and maybe format."""
     # Where a line is lost, the real numbers are not where they are looked for.
-    if at - part.start != volume.heading:
+    if index - part.start != volume.heading:
         raise InputError(
-            f"{source.at(at)}: found {at - part.start} lines of heading above this one, where the"
-            f" format has {volume.heading}; give the whole file"
+            f"{source.at(index)}: found {index - part.start} lines of heading above this one, where"
+            f" the format has {volume.heading}; give the whole file"
         )
     layout = layout_of(line[4]) if line[4] else (None if volume is _ONE else _REAL)
     if line[4] and not layout:
-        raise InputError(f"{source.at(at)}: found format ({line[4]}); give one as (8f10.3)")
-    dt_s = source.step(_step(source, part, volume, at, line))
-    lines = range(at + 1, part.stop)
+        raise InputError(f"{source.at(index)}: found format ({line[4]}); give one as (8f10.3)")
+    dt_s = source.step(_step(source, part, volume, index, line))
+    lines = range(index + 1, part.stop)
     stop, ended = channels.end_of_values(source, lines, _END.match, *_ENDED)
     # Velocities and displacements follow the accelerations of volume 2.
-    later = (i for i in range(at + 1, stop) if _SERIES.match(source.lines[i]))
-    block = Block(first=at + 1, stop=next(later, stop), count=int(line[1]), promised=at)
+    later = (i for i in range(index + 1, stop) if _SERIES.match(source.lines[i]))
+    block = Block(first=index + 1, stop=next(later, stop), count=int(line[1]), promised=index)
     numbers = fixed_values(source, block, layout) if layout else free_values(source, block)
-    values = numbers * source.scale(line[3], at)
+    values = numbers * source.scale(line[3], index)
     length = _real(source, part, volume, volume.length)
     channels.check_length(source, length, len(values) * dt_s, dt_s)
     return Record(name="", dt_s=dt_s, a_mps2=values, notes=ended)
 
 
-def _step(source: Source, part: range, volume: _Volume, at: int, line: re.Match[str]) -> Stated:
+def _step(source: Source, part: range, volume: _Volume, index: int, line: re.Match[str]) -> Stated:
     """Step of the line above the values; in volume 2 that of the heading, with more digits."""
-    stated = printed(line[2], at)
+    stated = printed(line[2], index)
     if line.re is _RATE_LINE:
         # A rate is exact; `.005 SEC` is rounded to its digits.
         step_s = 1.0 / stated.value if stated.value > 0.0 else 0.0
-        return Stated(value=step_s, index=at)
+        return Stated(value=step_s, index=index)
     if volume is _ONE:
         return stated
     exact = _real(source, part, volume, _STEP_2)

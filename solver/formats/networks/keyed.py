@@ -110,9 +110,11 @@ def read(source: Source) -> MotionFile:
     if "," in source.lines[first]:
         rows = (line.replace(",", " ") for line in source.lines[first:])
         source = replace(source, lines=[*top, *rows])
-    quantity, at = heading.get("quantity")[1:]
+    quantity, line = heading.get("quantity")[1:]
     if quantity and ("ACCELERATION" not in quantity.upper() or "SPECTRUM" in quantity.upper()):
-        raise InputError(f"{source.at(at)}: found {quantity.lower()}; give a file of acceleration")
+        raise InputError(
+            f"{source.at(line)}: found {quantity.lower()}; give a file of acceleration"
+        )
     dt_s = source.step(heading.step)
     names = _names(source, heading)
     # Behind the accelerations of ISESD are velocities and displacements.
@@ -124,16 +126,16 @@ def read(source: Source) -> MotionFile:
         check_steps(source, heading.step, even)
         names = names[1:]
     scale = _scale(source, heading)
-    _, length, at = heading.get("length")
+    _, length, index = heading.get("length")
     number = _NUMBER.match(length)
-    check_length(source, printed(number[0] if number else "", at), len(columns[0]) * dt_s, dt_s)
+    check_length(source, printed(number[0] if number else "", index), len(columns[0]) * dt_s, dt_s)
     head = "\n".join(top)
     is_uncorrected = _UNCORRECTED.search(head)
     peaks = dict(_peaks(heading, names, scale))
     channels = []
     for name, values in zip(names, columns * scale, strict=True):
-        peak_mps2, at = peaks.get(name.upper(), (0.0, 0))
-        notes = centered_peak_notes(source, at, peak_mps2, values)
+        peak_mps2, index = peaks.get(name.upper(), (0.0, 0))
+        notes = centered_peak_notes(source, index, peak_mps2, values)
         if is_uncorrected:
             notes += offset_notes(values)
         channels.append(Record(name=name, dt_s=dt_s, a_mps2=values, notes=notes))
@@ -185,34 +187,34 @@ def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats
             if len(fields) not in (0, width)
         )
     count = sum(len(fields) for _, fields in rows)
-    _, text, at = heading.get("count")
+    _, text, index = heading.get("count")
     if text:
         number = text.strip("/").partition("/")[0]
         if not number.isdecimal():
-            raise InputError(f"{source.at(at)}: found {shown(text)}; give the number of values")
+            raise InputError(f"{source.at(index)}: found {shown(text)}; give the number of values")
         count = width * int(number)
-    block = Block(first=heading.first, stop=stop, count=count, promised=at)
+    block = Block(first=heading.first, stop=stop, count=count, promised=index)
     return np.ascontiguousarray(free_values(source, block).reshape(-1, width).T)
 
 
 def _scale(source: Source, heading: _Heading) -> float:
     """Value [m/s2] of the unit of the values: stated alone, or with the peak of raw values."""
-    _, text, at = heading.get("unit")
+    _, text, index = heading.get("unit")
     if not text:
-        more, _, at = heading.get("peak")
-        text = more[more.find("(") + 1 :].partition(")")[0]
+        peak_text, _, index = heading.get("peak")
+        text = peak_text[peak_text.find("(") + 1 :].partition(")")[0]
     # `m/s*s, m/s & s` are those of three series, `gal(cm/s/s)` is one twice.
     parts = [part.strip(" .") for part in re.split(r"[,;()]|\.\s", text)]
     known = next((part for part in parts if not math.isnan(unit_size(part))), text)
-    return source.scale(known, at) if text else source.stated_scale(())
+    return source.scale(known, index) if text else source.stated_scale(())
 
 
 def _peaks(
     heading: _Heading, names: Sequence[str], scale: float
 ) -> Iterator[tuple[str, tuple[float, int]]]:
     """Yield the stated peak [m/s2] of each component that has one, and its line."""
-    for more, text, index in heading.entries.get("peak", ()):
-        words = re.split(r"[\s()_,.]+", more.strip())
+    for peak_text, text, index in heading.entries.get("peak", ()):
+        words = re.split(r"[\s()_,.]+", peak_text.strip())
         size = next((unit_size(word) for word in words if not math.isnan(unit_size(word))), scale)
         values = [float(number) for number in _NUMBER.findall(text)]
         if words[-1] in names:  # `AmplitudeMAX. U: 35.9~ -31.2`

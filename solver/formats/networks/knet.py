@@ -51,22 +51,23 @@ def recognizes(source: Source) -> bool:
 
 def read(source: Source) -> MotionFile:
     """Read the one component of a file of counts, or all of a CSV."""
-    at = next((i for i, x in enumerate(source.lines[:_CSV_HEADING_LINES]) if _COLUMNS.match(x)), -1)
-    return _csv(source, at) if at >= 0 else _counts(source)
+    lines = enumerate(source.lines[:_CSV_HEADING_LINES])
+    index = next((i for i, line in lines if _COLUMNS.match(line)), -1)
+    return _csv(source, index) if index >= 0 else _counts(source)
 
 
-def _csv(source: Source, at: int) -> MotionFile:
+def _csv(source: Source, top: int) -> MotionFile:
     """Read the components below the line of columns at an index."""
-    heads = [text.strip() for text in source.lines[at].split(",")]
-    rows = [(i, row.split(",")) for i, row in enumerate(source.lines) if i > at and row.strip()]
+    heads = [text.strip() for text in source.lines[top].split(",")]
+    rows = [(i, row.split(",")) for i, row in enumerate(source.lines) if i > top and row.strip()]
     if len(rows) < 2:
-        raise InputError(f"{source.at(at)}: found {len(rows)} rows below it; give the whole file")
+        raise InputError(f"{source.at(top)}: found {len(rows)} rows below it; give the whole file")
     table = dated_table(source, rows, len(heads))
     lines = [index for index, _ in rows]
     check_last(source, rows[-1][0], [fields[-1].strip() for _, fields in rows[-COMPARED:]])
     dt_s, columns, notes = sampled(source, table[:, 0], table[:, 1:].T, lines.__getitem__)
     channels = [
-        _component(source, at, head, dt_s, values)
+        _component(source, top, head, dt_s, values)
         for head, values in zip(heads[2:], columns, strict=True)
     ]
     form = "KiK-net CSV" if channels[0].name[-1:].isdecimal() else "K-NET CSV"
@@ -74,12 +75,12 @@ def _csv(source: Source, at: int) -> MotionFile:
     return motion_file(source, form, channels, notes, time_in(rows[0][1][0], _START))
 
 
-def _component(source: Source, at: int, head: str, dt_s: float, values: Floats) -> Record:
+def _component(source: Source, index: int, head: str, dt_s: float, values: Floats) -> Record:
     """Return a column of the CSV as a record by its heading, a name with its unit."""
     unit = _IN_UNIT.fullmatch(head)
     if not unit:
-        raise InputError(f"{source.at(at)}: found {shown(head)}; give a column as N-S(gal)")
-    name, a_mps2 = _KIK_NET.get(unit[1], unit[1]), values * source.scale(unit[2], at)
+        raise InputError(f"{source.at(index)}: found {shown(head)}; give a column as N-S(gal)")
+    name, a_mps2 = _KIK_NET.get(unit[1], unit[1]), values * source.scale(unit[2], index)
     borehole = (_BOREHOLE,) if name.endswith("1") else ()
     return Record(name=name, dt_s=dt_s, a_mps2=a_mps2, notes=(*offset_notes(a_mps2), *borehole))
 
@@ -87,14 +88,15 @@ def _component(source: Source, at: int, head: str, dt_s: float, values: Floats) 
 def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
     """Compare a CSV with the duration that its heading states, in whole seconds."""
     lines = source.lines[:_CSV_HEADING_LINES]
-    at = next((i for i, line in enumerate(lines) if line.startswith("#DurationTime")), len(lines))
-    stated_s = printed(source.line(at + 1).strip("#, "), at + 1).value
+    named = (i for i, line in enumerate(lines) if line.startswith("#DurationTime"))
+    index = next(named, len(lines))
+    stated_s = printed(source.line(index + 1).strip("#, "), index + 1).value
     if not abs(stated_s - length_s) > 1e-6:
         return ()
     words = f"the heading states {stated_s:g} s, the record lasts {length_s:g} s"
     # Whole seconds hide less than one; more is a file that was cut.
     if abs(stated_s - length_s) >= 1.0:
-        raise InputError(f"{source.at(at + 1)}: {words}; give the whole file")
+        raise InputError(f"{source.at(index + 1)}: {words}; give the whole file")
     return (words,)
 
 
@@ -106,10 +108,10 @@ def _counts(source: Source) -> MotionFile:
     count = round(duration.value * rate.value)
     block = Block(first=memo + 1, stop=len(source.lines), count=count, promised=duration.index)
     values = free_values(source, block) * _scale(source)
-    peak, at = _entry(source, "Max. Acc. (gal)", "Max Acc. (gal)")
+    peak, index = _entry(source, "Max. Acc. (gal)", "Max Acc. (gal)")
     # In gal, and without the mean, which the counts have.
-    stated_mps2 = 0.01 * printed(peak, at).value
-    notes = [*centered_peak_notes(source, at, stated_mps2, values), *offset_notes(values)]
+    stated_mps2 = 0.01 * printed(peak, index).value
+    notes = [*centered_peak_notes(source, index, stated_mps2, values), *offset_notes(values)]
     direction, _ = _entry(source, "Dir.")
     name = _KIK_NET.get(direction, direction)
     if name.endswith("1"):

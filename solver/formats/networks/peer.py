@@ -44,29 +44,30 @@ def recognizes(source: Source) -> bool:
 
 def read(source: Source) -> MotionFile:
     """Read the one component of a file."""
-    at = _count_line(source.lines)
-    form = "PEER AT2" if at >= 0 else "count and step"
-    if at < 0:
-        at = _bare_line(source.lines)
-    heading = source.lines[:at]
+    number = _count_line(source.lines)
+    form = "PEER AT2" if number >= 0 else "count and step"
+    if number < 0:
+        number = _bare_line(source.lines)
+    heading = source.lines[:number]
     for index, line in enumerate(heading):
-        if other := phrases.other_quantity(line):
-            raise InputError(f"{source.at(index)}: found {other}; give the file of acceleration")
-    counted = _counted(source.lines[at]) or _BARE.fullmatch(source.lines[at].strip())
+        if quantity := phrases.other_quantity(line):
+            raise InputError(f"{source.at(index)}: found {quantity}; give the file of acceleration")
+    stated = source.lines[number]
+    counted = _counted(stated) or _BARE.fullmatch(stated.strip())
     if not counted:
         raise InputError(
-            f"{source.at(at)}: found {shown(source.lines[at].strip())}; give the count and the step"
-            " as in NPTS=  4000, DT=   .0100 SEC"
+            f"{source.at(number)}: found {shown(stated.strip())}; give the count and the step as in"
+            " NPTS=  4000, DT=   .0100 SEC"
         )
     units: list[tuple[str, int]] = []
-    for index, line in enumerate(source.lines[: at + 1]):
+    for index, line in enumerate(source.lines[: number + 1]):
         # The name of a station may have the letters of a unit in brackets.
         if phrases.ACCELERATION.search(line) or phrases.stated_units(line):
             units += [(unit, index) for unit in phrases.units_in(line)]
     scale = source.stated_scale(units)
-    step = printed(counted[2], at) if counted.re is not _NAMED else None
-    dt_s = source.step(step or phrases.step_in(source, at, source.lines[at]))
-    block = Block(first=at + 1, stop=len(source.lines), count=int(counted[1]), promised=at)
+    step = printed(counted[2], number) if counted.re is not _NAMED else None
+    dt_s = source.step(step or phrases.step_in(source, number, stated))
+    block = Block(first=number + 1, stop=len(source.lines), count=int(counted[1]), promised=number)
     values = free_values(source, block) * scale
     # The second line has event, date, station and component.
     _, comma, component = heading[1].rpartition(",") if len(heading) > 1 else ("", "", "")
