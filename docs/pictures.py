@@ -28,7 +28,7 @@ from PIL import Image, ImageChops
 
 import report
 from report.figures.base import ACCENT, style
-from report.figures.plan import array_section
+from report.figures.plan_figure import array_section
 from solver import Model
 
 if TYPE_CHECKING:

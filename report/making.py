@@ -16,8 +16,8 @@ from report.assessment.assess import assess
 from report.assessment.assessment import Assessment
 from report.assessment.revision_changes import NO_FORMER, Changes
 from report.assessment.support.evidence import support
-from report.drawing.plan import plan_drawing
 from report.drawing.plan_dxf import write_dxf
+from report.drawing.plan_layers import plan_drawing
 from report.motions.prepare import Shaking, prepare
 from report.package.html import pages
 from report.page_file.page import page

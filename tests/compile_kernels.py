@@ -18,7 +18,7 @@ from solver.kernels import runge_kutta
 from solver.rivals.methods import METHODS
 from solver.sliding.row import BlockRow, row_history, slide_row
 from solver.studies.lives import Draws, Responses, distances
-from solver.verification.study import samples_of
+from solver.verification.study_cases import samples_of
 
 DT_S = 0.02
 SHAKING = 6.0 * np.sin(np.arange(40) * 0.9)

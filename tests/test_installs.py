@@ -12,7 +12,7 @@ import pytest
 
 from fixtures import packages
 from fixtures.paths import ROOT
-from report.proof.contents import differences
+from report.proof.differences import differences
 
 pytestmark = pytest.mark.nightly
 

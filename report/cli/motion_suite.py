@@ -17,13 +17,13 @@ from report.project.read.workbook_data import Sheet
 from report.results.added_motions import add_suite, said_near, suite_rows
 from report.results.publish import output_folder, publish
 from report.suite.seed_records import read_seeds
-from report.suite.site_target import site_targets
 from report.suite.suite_files import check_folder, generate
 from report.suite.suite_table import suite_table
 from report.suite.target_table import read_target
 from report.suite.targets import (
     SuiteTargets,
     ac156_targets,
+    site_targets,
     table_targets,
 )
 from report.text.command_line import called

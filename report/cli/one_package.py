@@ -93,7 +93,7 @@ def warn_of_other_packages(new: Path) -> None:
     others = sorted(path for path in new.parent.glob("*.pdf") if path.name != new.name)
     if others:
         # An extra, which a report imports only here: it takes most of a second.
-        from report.proof.package import warn_of_other_input
+        from report.proof.opened_package import warn_of_other_input
 
         warn_of_other_input(new, others)
 

@@ -18,16 +18,8 @@ from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
 from report.cli.terminal import plain, print_json, say
 from report.making import make
-from report.proof.package import (
-    Agreement,
-    Proof,
-    RecordsMissingError,
-    compared,
-    failed,
-    opened,
-    read_package,
-    take_out,
-)
+from report.proof.opened_package import RecordsMissingError, opened, read_package, take_out
+from report.proof.package_comparison import Agreement, Proof, compared, failed
 from report.provenance.known_errors import touching
 from report.results.publish import OUTPUTS, STAMP, warn_if_mixed
 from report.steps import STEPS

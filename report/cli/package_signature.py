@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from report.cli.input_errors import input_errors
-from report.proof.package import read_package
+from report.proof.opened_package import read_package
 from report.proof.signatures import signed
 from solver.errors import InputError
 from solver.file_checks import check_plain, read_file

@@ -11,12 +11,12 @@ import click
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
 from report.cli.terminal import colored
-from report.manual.render import files as manual_files
+from report.manual.manual_files import files as manual_files
 from report.results.publish import output_folder, publish
 from report.text.counts import numbered
 from solver.verification.building import recorded_buildings
 from solver.verification.run import verify
-from solver.verification.study import recorded_triples
+from solver.verification.study_motions import recorded_triples
 
 VERIFY_STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 7, 33, 2)
 """Usual shares of the time of the steps that a verification reports, as with --quick."""

@@ -1,7 +1,7 @@
 """The roof plan on paper, to scale: what is on the roof, how far it may move, every clearance.
 
-Places finished numbers and words; `report.figures.plan` and `report.web.plan` paint them. Read
-`plan_on_paper` first. `report.drawing.plan` has the same plan on layers, for CAD.
+Places finished numbers and words, which `report.figures.plan_figure` and `report.web.plan` paint.
+`report.drawing.plan_layers` has the same plan on layers, for CAD. Read `plan_on_paper` first.
 """
 
 from __future__ import annotations
@@ -12,11 +12,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from report.assessment.assessment import Assessment
-from report.drawing.dimensions import draw_dimensions, draw_key, draw_numbers, key_on_paper
+from report.drawing.dimensions import draw_dimensions, draw_numbers
 from report.drawing.labels import (
-    Schedule,
-    alike_arrays,
-    beside,
     label_array,
     label_edges,
     label_object,
@@ -25,9 +22,11 @@ from report.drawing.labels import (
     reserve_name,
 )
 from report.drawing.layers import Layer
+from report.drawing.legend import draw_key, key_on_paper
 from report.drawing.paper_items import Mark, level, width_in
 from report.drawing.placer import Frame, Placer, centered
-from report.drawing.plan import outlines
+from report.drawing.plan_layers import outlines
+from report.drawing.plan_tables import Schedule, alike_arrays, beside
 from report.drawing.sheet import (
     A3,
     A4,

@@ -1,7 +1,7 @@
 """What a plan on paper consists of, painted in order.
 
 Positions are in inches, y upward. How an item looks stands with each painter: of the package
-(`report.figures.plan`) and of the page (`report.web.plan`). Read `Item`.
+(`report.figures.plan_figure`) and of the page (`report.web.plan`). Read `Item`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from enum import Enum
 
 from report.drawing.layers import Layer
 from report.project.model.shapes import Point
-from report.typeset.letter_width import width_em
+from report.typeset.letters import width_em
 
 
 class Mark(Enum):

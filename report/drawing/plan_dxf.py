@@ -73,29 +73,15 @@ class PlanDrawing:
 
 # Application whose extended data names what an outline is of.
 APPLICATION = "ROOFSLIP"
-
-
 _VERSION = "R2010"
-
-
 _DASHED = "DASHED"
-
-
 _FONT = "arial.ttf"
-
-
 _STYLE = "ROOFSLIP"  # of dimensions
-
-
 _LEGIBLE = 7  # black on white, white on black
-
 
 # Size of the layout [in], ANSI D and ISO A1, its margin, and the height of the title block.
 _SHEETS = {True: (34.0, 22.0), False: (33.1, 23.4)}
-
-
 _MARGIN_IN, _TITLE_IN = 0.75, 1.0
-
 
 # The window on the plan, which fits into both.
 WINDOW_IN = (33.1 - 2.0 * _MARGIN_IN, 22.0 - 2.0 * _MARGIN_IN - _TITLE_IN)

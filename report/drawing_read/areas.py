@@ -22,8 +22,6 @@ from report.project.model.shapes import Point
 
 MAX_BOUNDARIES = 500
 HATCHES = ("HATCH", "MPOLYGON")
-
-
 _LEAST_SHARE = 1e-3
 _EDGES = {
     "LineEdge": ("LINE", ("start", "end")),

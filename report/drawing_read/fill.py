@@ -12,9 +12,9 @@ from typing import NoReturn
 from report.drawing_read.geometry import own_axes
 from report.drawing_read.modules import GAP_M
 from report.drawing_read.moved import SAME_M, Move
+from report.drawing_read.plan_as_drawn import RoofPlan
 from report.drawing_read.plan_read import check_size, known_layers, plan_of, unit_asked
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing
-from report.drawing_read.roof_plan import RoofPlan
 from report.drawing_read.row_matching import matched
 from report.project.check.plan_shapes import far_off, us_first
 from report.project.check.problem_lines import listed

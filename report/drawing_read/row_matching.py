@@ -16,9 +16,9 @@ from itertools import product
 import shapely
 
 from report.drawing_read.moved import SAME_M, Move, whole_move
+from report.drawing_read.plan_as_drawn import STILL_M, RoofPlan, placed
 from report.drawing_read.plan_read import free_name
 from report.drawing_read.roof_drawing import DrawnOutline
-from report.drawing_read.roof_plan import STILL_M, RoofPlan, placed
 from report.project.check.plan_shapes import roof_of, shapes_of, us_first
 from report.project.check.problem_lines import listed
 from report.project.model.choices import LayerKind

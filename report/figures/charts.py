@@ -20,17 +20,7 @@ from matplotlib.axes import Axes
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.routes import NOT_PERMITTED
 from report.drawing.paper_items import TYPE_PT
-from report.figures.base import (
-    ACCENT,
-    ACROSS,
-    GRAY,
-    INK,
-    LINES,
-    framed,
-    labeled,
-    style,
-    svg_text,
-)
+from report.figures.base import ACCENT, ACROSS, GRAY, INK, LINES, framed, labeled, style, svg_text
 from report.project.model.array import Array
 from report.text.grouping import ids_by
 from report.text.names import ranged

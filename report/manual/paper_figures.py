@@ -26,7 +26,7 @@ from report.figures.base import (
     svg_text,
     ticks,
 )
-from report.figures.history import envelope
+from report.figures.history_charts import envelope
 from solver.model import Floats
 from solver.verification.evidence import DesignCurves, LinkComparison
 

@@ -44,7 +44,6 @@ _STYLES = (
     ("P", "none", GRAY, GRAY),
 )
 
-
 # Keywords for a line with markers, by the name of the method.
 LOOKS: Mapping[str, dict[str, Any]] = {
     method.name: {

@@ -30,8 +30,8 @@ def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
 def draw_assessment(package: PackageData) -> Drawings:
     """Return the drawings that need no evidence."""
     # Here and below: what draws nothing loads no matplotlib.
-    from report.figures.plan import array_section, paper_svg
-    from report.figures.records import accelerations
+    from report.figures.plan_figure import array_section, paper_svg
+    from report.figures.record_charts import accelerations
 
     us_first, assessment = package.fmt.us_first, package.assessment
     printed = package.printed_plan
@@ -52,7 +52,7 @@ def draw_assessment(package: PackageData) -> Drawings:
 def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     """Return the drawings of spectra and of runs; none without motions."""
     from report.figures.charts import comparison
-    from report.figures.spectra import spectra
+    from report.figures.spectrum_charts import spectra
 
     if not package.assessment.has_motions:
         return {}
@@ -82,7 +82,7 @@ def _governing(
     us_first: bool,
 ) -> Iterator[str]:
     """Yield the histories of the governing runs, a panel for each group of arrays."""
-    from report.figures.history import RunPanel, histories
+    from report.figures.history_charts import RunPanel, histories
 
     panels = []
     for group, followed in runs:
@@ -98,7 +98,7 @@ def _governing(
 def _histories(
     array: ArrayAssessment, followed: Sequence[SlideHistory], us_first: bool
 ) -> Iterator[tuple[str, str]]:
-    from report.figures.history import RunPanel, histories, hodographs
+    from report.figures.history_charts import RunPanel, histories, hodographs
 
     runs = zip(_in_parts(array.motions, PANELS), _in_parts(followed, PANELS), strict=True)
     for some, paths in runs:

@@ -21,7 +21,7 @@ from report.document.tables import (
     merged,
     part_of,
 )
-from report.drawing.labels import Schedule, alike_arrays
+from report.drawing.plan_tables import Schedule, alike_arrays
 from report.drawing.sheet import unit_format
 from report.pages.clearance_tables import (
     NumberedGap,

@@ -18,7 +18,7 @@ from typing import Any
 from pypdf import PdfReader
 from pypdf.generic import ArrayObject, DictionaryObject, PdfObject, StreamObject
 
-from report.proof.contents import guarded
+from report.proof.pdf_contents import guarded
 from report.typeset.finish import FIELD
 from report.typeset.pdf import TEMPLATES
 from solver.errors import InputError

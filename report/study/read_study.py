@@ -38,7 +38,6 @@ HOW = (
     " 0, 1, 2.5; or 0 to 7 by 0.5"
 )
 
-
 # A study workbook as data.
 StudySheet = SheetOf[StudyInput]
 

@@ -1,14 +1,18 @@
-"""The components of a generated suite, each with its fit to the target and its measures."""
+"""The components of a generated suite, each with its fit to the target, and its acceptance."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from report.motions.measured import facts, without_noise
 from report.suite.targets import SuiteTargets
+from solver.records.acceptance import Acceptance, acceptance
 from solver.records.measures import Measures, measures
 from solver.records.record import Record
+from solver.rules.hazard import target_sa_g
+from solver.sliding import checked
 from solver.synthesis.matching import SpectrumFit, spectrum_fit
 from solver.synthesis.suite import SuiteMotion
 
@@ -69,3 +73,13 @@ def suite_components(
             )
             components.append(component)
     return tuple(components)
+
+
+def suite_acceptance(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> Acceptance:
+    """Compare a suite with its targets as the motions of an analysis; motions count from 1."""
+    return acceptance(
+        [checked.motion(m.x, m.y, m.z, id=f"motion-{k:02d}") for k, m in enumerate(suite, start=1)],
+        [m.hold_s for m in suite],
+        partial(target_sa_g, targets.horizontal),
+        partial(target_sa_g, targets.vertical),
+    )

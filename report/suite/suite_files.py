@@ -18,16 +18,16 @@ import numpy as np
 
 from report.assessment.support.spectra import Spectra
 from report.figures.base import png_bytes
-from report.figures.spectra import spectra
+from report.figures.spectrum_charts import spectra
 from report.motions.history import TargetSpectrum
 from report.provenance.release import version
-from report.suite.acceptance_rows import acceptance_facts, suite_acceptance
 from report.suite.seed_records import Seeds
 from report.suite.suite_components import (
     MAX_MEAN_DIFFERENCE,
     MAX_RATIO,
     MIN_RATIO,
     SuiteComponent,
+    suite_acceptance,
     suite_components,
 )
 from report.suite.targets import SuiteTargets
@@ -35,6 +35,7 @@ from solver.errors import InputError
 from solver.model import Floats
 from solver.records.record import record_csv
 from solver.rules.hazard import Target, target_sa_g
+from solver.rules.limit import Limit
 from solver.synthesis.matching import BAND_HZ, spectrum_fit
 from solver.synthesis.suite import SuiteMotion, make_suite
 
@@ -187,3 +188,21 @@ def _spectra(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> 
         title=f"{name}, {kind}",
         is_ground=False,
     )
+
+
+def acceptance_facts(rows: Sequence[Limit]) -> list[dict[str, Any]]:
+    """Return the rows for suite.json."""
+    return [
+        {
+            "title": row.title,
+            "found": row.found,
+            "limit": row.limit,
+            "unit": row.measure.value,
+            "is_at_least": row.is_at_least,
+            "satisfied": row.ok,
+            "worst": row.worst,
+            "is_ours": row.is_program_limit,
+            "consequence": row.consequence.value,
+        }
+        for row in rows
+    ]

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from report.suite.acceptance_rows import acceptance_lines, suite_acceptance
 from report.suite.suite_components import (
     MAX_MEAN_DIFFERENCE,
     MAX_RATIO,
     MIN_RATIO,
     SuiteComponent,
+    suite_acceptance,
     suite_components,
 )
 from report.suite.targets import SuiteTargets
 from report.text.aligned import aligned
+from report.text.amounts import limit_texts
 from report.text.units import G_MPS2
+from solver.rules.limit import Limit
 from solver.synthesis.matching import BAND_HZ
 from solver.synthesis.suite import SuiteMotion
 
@@ -55,3 +57,18 @@ def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str
         f"of 1 (1/12 octave, from {lowest} Hz to {BAND_HZ[1]:g} Hz, 5 % damping)",
         *acceptance_lines(suite_acceptance(suite, targets).rows),
     ]
+
+
+def acceptance_lines(rows: Sequence[Limit]) -> list[str]:
+    """Return a line for each row: OK or what follows, title, value found, limit, where."""
+    lines = []
+    for row in rows:
+        value, limit = limit_texts(row, us_first=True)  # none is a length
+        where = f" ({row.worst})" if row.worst else ""
+        ours = "; not a code requirement, limit set by this program"
+        lines.append(
+            f"{'OK' if row.ok else row.consequence.value}: {row.title}: "
+            f"{value}, {'at least' if row.is_at_least else 'at most'} {limit}{where}"
+            f"{ours if row.is_program_limit else ''}"
+        )
+    return lines

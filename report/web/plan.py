@@ -1,7 +1,7 @@
 """The roof plan for the page: what `report.drawing.on_paper` places, as elements of SVG.
 
 Placed on the widest sheet that the page has room for; the page places nothing. Reads finished
-numbers; the package paints the same in `report.figures.plan`.
+numbers; the package paints the same in `report.figures.plan_figure`.
 """
 
 from __future__ import annotations

@@ -66,8 +66,8 @@ def motions_made(workbook: Path, out: Path) -> str:
         from report.project.write.filled import BEFORE
         from report.results.added_motions import add_suite, suite_rows
         from report.suite.seed_records import read_seeds
-        from report.suite.site_target import site_targets
         from report.suite.suite_files import generate
+        from report.suite.targets import site_targets
 
         sheet = read(workbook)
         targets, _ = site_targets(sheet)

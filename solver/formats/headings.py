@@ -18,8 +18,15 @@ from solver.formats import phrases
 from solver.formats.likely_kinds import COLUMNS, likely_text
 from solver.formats.numbers import NUMBER
 from solver.formats.phrases import Heading, parse
-from solver.formats.plain_lines import plain_lines
-from solver.formats.rows import Row, content_of, first_row, is_heading, rows_of, separator_of
+from solver.formats.plain_lines import (
+    Row,
+    content_of,
+    first_row,
+    is_heading,
+    plain_lines,
+    rows_of,
+    separator_of,
+)
 from solver.formats.source import Source, Stated
 from solver.records.record import shown, unit_size
 

@@ -13,11 +13,9 @@ _CONVERT = (
     "convert it to times and accelerations, for example with ObsPy: write columns time_s,acc_g"
 )
 
-
 COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
 _AS_RECORD = "give the record itself, such as the file that its download page offers"
 _AS_READ = f"give the file of values that it reads, or {COLUMNS}"
-
 
 _TEXTS = (
     (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
@@ -29,7 +27,6 @@ _TEXTS = (
     (re.compile(r"(?i)\s*(?:timeSeries|set|pattern)\s+\S+\s+\S|\s*(?:import\s|function\s[^(]*\()"),
      "a program", _AS_READ),
 )  # fmt: skip
-
 
 LOOKED_AT = 15
 _BYTES = (

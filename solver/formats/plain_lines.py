@@ -1,32 +1,23 @@
-"""Lines of a table without what its program added: quotes, `sep=`, marks at the ends, units below.
+"""Lines of a table of numbers, without what its program added to them, and their rows.
 
-`"0,01";"0,2";` becomes `0.01;0.2`. Each line keeps its index, so that messages name the lines of
-the file. Read `plain_lines`.
+`"0,01";"0,2";` becomes `0.01;0.2`, which is a row of two numbers; `time_s,acc_g` is a heading. Each
+line keeps its index, so that messages name the lines of the file. Read `plain_lines`.
 """
 
 from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import chain, islice
 
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER
 from solver.formats.phrases import Kind, parse
-from solver.formats.rows import first_row, rows_of, separator_of
 
 _SEP = re.compile(r'"?sep=([,;\t| ])"?', re.IGNORECASE)
-
-
 _QUOTED = re.compile(r'"[^"]*" *([,;\t|])?')
-
-
 _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
-
-
 _COUNT_AND_STEP = re.compile(r"(\d{1,9})[\s,;]++(0?\.\d+)", re.ASCII)
-
-
 _MARKS = ",;\t"
 _SEEN = 200
 
@@ -135,3 +126,40 @@ def _without_decimal_commas(lines: list[str]) -> list[str]:
     return [
         line.replace(",", ".") if line.lstrip()[:1] in "+-.0123456789" else line for line in lines
     ]
+
+
+_BLANK_BETWEEN = re.compile(r"[^,\s]\s+[^,\s]")
+# Index of a line, and its content.
+Row = tuple[int, str]
+
+
+def content_of(line: str) -> str:
+    """Return a line without comment and blanks at its ends."""
+    return line.partition("#")[0].strip()
+
+
+def rows_of(lines: Sequence[str], start: int) -> Iterator[Row]:
+    """Index and content of each line from index `start` on that is not blank or a comment."""
+    for index in range(start, len(lines)):
+        if content := content_of(lines[index]):
+            yield index, content
+
+
+def first_row(lines: Sequence[str]) -> int:
+    """Index of the first line that may have numbers: after the heading, if there is one."""
+    for index, content in rows_of(lines, 0):
+        return index + 1 if is_heading(content) else index
+    return len(lines)
+
+
+def is_heading(content: str) -> bool:
+    """Whether a line begins with what is no number."""
+    word = re.split(r"[,;\s]", content)[0]
+    return content[0] not in "+-.0123456789" and word.lower() not in {"nan", "inf", "infinity"}
+
+
+def separator_of(content: str) -> str | None:
+    """Separator of the columns; None for blanks and tabs. The commas of `0,1 0,2` are decimal."""
+    if ";" in content:
+        return ";"
+    return "," if "," in content and not _BLANK_BETWEEN.search(content) else None

@@ -29,8 +29,8 @@ from solver.formats.numbers import (
     row_problems,
 )
 from solver.formats.phrases import Kind
+from solver.formats.plain_lines import content_of
 from solver.formats.record_file import MotionFile
-from solver.formats.rows import content_of
 from solver.formats.source import Source
 from solver.formats.times import Even, is_even, sampled
 from solver.model import Floats

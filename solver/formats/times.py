@@ -35,7 +35,6 @@ _MANY, _ROUNDED_WITHIN = 10, 0.9
 # Of instruments and programs, the most usual first.
 _RATES_HZ = (200, 100, 50, 250, 500, 1000, 400, 125, 128, 256, 512, 80, 120, 150, 75, 300, 5000)
 
-
 # Step [s], columns of shape (k, n), and notes: one or more if they were resampled.
 Even = tuple[float, Floats, tuple[str, ...]]
 

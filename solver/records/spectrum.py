@@ -24,10 +24,8 @@ from solver.records.record import UNITS, Record, raise_any, read_only
 if TYPE_CHECKING:
     import pandas as pd
 
-
 # Least steps per period of an oscillator; most steps per interval of the record.
 PEAK_FINENESS, PEAK_STEPS = 16, 16
-
 
 # Periods [s] of `spectrum`, where none are given.
 PERIODS_S = read_only(np.geomspace(0.02, 10.0, 200))

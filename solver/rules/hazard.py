@@ -294,12 +294,10 @@ class Tail(StrEnum):
 
 _FLEXIBLE_FROM_HZ = 1.3
 
-
 _TAIL_SENTENCES = {
     Tail.AC156: "the AC156 line below 1.3 Hz (beyond 0.77 s), to 0.1 A_FLX at 0.1 Hz (10 s)",
     Tail.RECIPROCAL: "1/T beyond 0.77 s (below 1.3 Hz), to 0.077 A_FLX at 10 s (0.1 Hz)",
 }
-
 
 # Log-log from 1.3 Hz, where it is 1: AC156 has 0.1 at 0.1 Hz, and 1/T has 0.1 Hz / 1.3 Hz.
 _TAIL_AT_10_S = {Tail.AC156: 0.1, Tail.RECIPROCAL: 0.1 / _FLEXIBLE_FROM_HZ}

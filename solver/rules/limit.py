@@ -14,7 +14,6 @@ from solver.rules.rulesets import Confidence, Provision
 # Relative difference of a value from its limit that is rounding: 1 in 20 is typed as 5 percent.
 _EQUAL = 1e-9
 
-
 # Of the limits on motions that AC156 and practice give, which no rule set states.
 MOTIONS = Provision(value=math.nan, clause="motions for analysis", confidence=Confidence.KNOWN)
 

@@ -254,7 +254,6 @@ _ASCE: _Rows = {
     "interconnection_min": (0.1, K, "13.6.12"),
 }
 
-
 # Limits every ballasted system, beside all rule sets: 1 in 12.
 IBC_SLOPE, IBC_SECTION = "ibc_max_slope_deg", "1613.3"
 _IBC = {

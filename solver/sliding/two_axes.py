@@ -13,15 +13,7 @@ import numpy as np
 
 from solver.forces import components
 from solver.kernels import two_axes as kernel
-from solver.model import (
-    Event,
-    EventKind,
-    Floats,
-    Scene,
-    SlideHistory,
-    SlideResult,
-    Status,
-)
+from solver.model import Event, EventKind, Floats, Scene, SlideHistory, SlideResult, Status
 from solver.sliding.method import minimum_normal
 from solver.sliding.one_axis import (
     RecordBounds,

@@ -53,7 +53,6 @@ PARTS: Mapping[str, Callable[[], None]] = {
     "law": friction_law,
 }
 
-
 if __name__ == "__main__":
     for part in sys.argv[1:]:
         PARTS[part]()

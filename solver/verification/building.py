@@ -36,7 +36,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.records.spectrum import response_spectrum
 from solver.sliding.checked import slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
-from solver.verification.study import best_of, unexplained
+from solver.verification.study_cases import best_of, unexplained
 
 # Modes of the beam; further modes do not change the floor motions noticeably.
 MODES = 12

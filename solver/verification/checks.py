@@ -18,10 +18,11 @@ from solver.model import STANDARD_GRAVITY_MPS2, EventKind, Floats, SlideResult
 from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide, slide_history
-from solver.verification import reference, study
+from solver.verification import reference, study_cases
 from solver.verification.evidence import ROUNDING, Verified, percent_of
 from solver.verification.reference import Reference
-from solver.verification.study import Case, run, runnable_methods, scale_to
+from solver.verification.study_cases import Case, run, runnable_methods
+from solver.verification.study_motions import scale_to
 
 # Gravity in the closed forms [m/s2], as in their printed values.
 G = 9.81
@@ -218,7 +219,7 @@ def _critical_friction() -> Iterator[Verified]:
         yield Verified("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)
 
 
-CASES = (*study.CASES[:4], Case(-7.0, 0.05, 1.0), Case(0.0, 0.0, 0.2))
+CASES = (*study_cases.CASES[:4], Case(-7.0, 0.05, 1.0), Case(0.0, 0.0, 0.2))
 """Compared with 50 digits; the second and the fourth also with vertical shaking."""
 
 

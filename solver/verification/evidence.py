@@ -89,8 +89,6 @@ class ModelEvidence:
 
 # Errors in percent are relative to the exact displacement, or to 1 mm if that is larger [m].
 FLOOR_M = 1e-3
-
-
 ROUNDING = 1e-12
 """Tolerance where the expected and computed values differ by rounding error only."""
 

@@ -23,17 +23,16 @@ from solver.sliding.row import BlockRow, slide_row
 from solver.verification.checks import slip_checks
 from solver.verification.evidence import Verified
 from solver.verification.random_pairs import KINDS, UNBOUNDED, pair
-from solver.verification.study import (
+from solver.verification.study_cases import (
     MODEL_CASES,
-    RECORDED,
     TIGHT,
-    cut,
     faded,
     flat_scene,
     samples_of,
     scene_of,
     scenes_of,
 )
+from solver.verification.study_motions import RECORDED, cut
 
 AGREES = 1e-9
 """Tolerance where two computations agree to rounding error and the tightest tolerance."""

@@ -24,7 +24,8 @@ from solver.verification import (
 )
 from solver.verification.building import FloorRecords
 from solver.verification.evidence import Verification, Verified
-from solver.verification.study import compared_runs, own_records, own_triples
+from solver.verification.study_cases import compared_runs
+from solver.verification.study_motions import own_records, own_triples
 
 
 def verify(

@@ -29,12 +29,11 @@ from solver.sliding import two_axes
 from solver.sliding.method import AxisScene, Method
 from solver.sliding.one_axis import RecordBounds, bounds_of
 from solver.verification.evidence import percent_off
-from solver.verification.study import (
+from solver.verification.study_cases import (
     MODEL_CASES,
     TIGHT,
     Case,
     clocked,
-    cut,
     prepared,
     processor_seconds,
     run,
@@ -42,6 +41,7 @@ from solver.verification.study import (
     samples_of,
     scene_of,
 )
+from solver.verification.study_motions import cut
 
 NO_SAMPLES = np.empty((2, 0))
 TIME, SINGLE = "time per run [s]", "time of a single run [s]"

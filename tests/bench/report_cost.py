@@ -60,8 +60,8 @@ def stages() -> Iterator[str]:
 
     lay_out(html)
     yield "plan.dxf, results.xlsx and results.json"
-    from report.drawing.plan import plan_drawing
     from report.drawing.plan_dxf import write_dxf
+    from report.drawing.plan_layers import plan_drawing
     from report.results.results_json import results_json
     from report.results.xlsx import results_xlsx
 

@@ -24,7 +24,8 @@ from solver.formats import read_record
 from solver.rivals.methods import METHODS
 from solver.sliding.two_axes import DEFAULT_TOLERANCE
 from solver.verification import checks, workprecision
-from solver.verification.study import CASES, compared_runs, own_triples
+from solver.verification.study_cases import CASES, compared_runs
+from solver.verification.study_motions import own_triples
 from solver.verification.workprecision import OURS, SCIPY, SINGLE, TIME, times_longer, work_points
 
 PICTURES = ROOT / "docs" / "pictures"

@@ -17,7 +17,7 @@ from wine import WINE, command, installed, on_windows, roofslip
 from fixtures.commands import output_of
 from fixtures.packages import reported
 from fixtures.paths import ROOT, TESTS
-from report.proof.contents import differences
+from report.proof.differences import differences
 
 pytestmark = pytest.mark.nightly
 

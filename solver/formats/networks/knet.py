@@ -11,12 +11,7 @@ from __future__ import annotations
 import re
 
 from solver.errors import InputError
-from solver.formats.channels import (
-    centered_peak_notes,
-    motion_file,
-    offset_notes,
-    time_in,
-)
+from solver.formats.channels import centered_peak_notes, motion_file, offset_notes, time_in
 from solver.formats.numbers import COMPARED, Block, check_last, dated_table, free_values, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated

@@ -19,7 +19,7 @@ from report.assessment.plan.bare_edges import bare_edges
 from report.assessment.plan.neighbors import Cover, NearbyKind
 from report.assessment.support.plan_gaps import plan_gaps
 from report.drawing.layers import Layer
-from report.drawing.plan import plan_drawing
+from report.drawing.plan_layers import plan_drawing
 from report.drawing.sheet import LETTER
 from report.motions.prepare import prepare
 from report.pages.marks import Marks

@@ -29,7 +29,7 @@ from report.motions.prepare import prepare
 from report.project.check.covered import outdated, to_record
 from report.project.read.archive import open_book
 from report.project.read.read import read
-from report.proof.package import opened
+from report.proof.opened_package import opened
 
 
 @pytest.mark.nightly

@@ -17,7 +17,7 @@ import report.cli.solver_verification
 from fixtures import verify_run
 from fixtures.commands import errors_of, run
 from fixtures.verify_run import only
-from report.manual import render
+from report.manual import check_sections, manual_files
 from report.manual import work_figures as work
 from report.provenance.known_errors import known_errors
 from report.text import error_text, formula_text
@@ -99,7 +99,7 @@ def verifying(verify):
     """Have the command verify otherwise, and lay nothing out; layout is tested above."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(report.cli.solver_verification, "verify", verify)
-        patch.setattr(render, "lay_out", str.encode)
+        patch.setattr(manual_files, "lay_out", str.encode)
         yield patch
 
 
@@ -250,7 +250,8 @@ def test_a_verification_of_two_checks_is_laid_out_and_the_one_that_failed_ends_w
     )
     found = only(checks=rows, left_out=rows[:1] * 7)
     monkeypatch.setattr(report.cli.solver_verification, "verify", lambda *_, **__: found)
-    monkeypatch.setattr(render, "sections", lambda v: (render.summary(v), render.checks(v)))
+    sections = check_sections.summary, check_sections.checks
+    monkeypatch.setattr(manual_files, "sections", lambda v: tuple(make(v) for make in sections))
     done, out = run("verify", "--quick", "--out", tmp_path / "v"), tmp_path / "v"
     first, second, *_ = done.stdout.splitlines()
     assert (done.exit_code, first) == (1, "FAIL: 1 of 2 checks passed")

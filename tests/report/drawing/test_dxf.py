@@ -23,8 +23,8 @@ from fixtures.project_parts import FT, sides
 from report.assessment.support.envelopes import design_envelope
 from report.assessment.support.plan_gaps import plan_gaps
 from report.drawing.layers import Layer
-from report.drawing.plan import gap_cells, plan_drawing, title_block
 from report.drawing.plan_dxf import APPLICATION, write_dxf
+from report.drawing.plan_layers import gap_cells, plan_drawing, title_block
 from report.project.model.choices import UnitsFirst
 
 

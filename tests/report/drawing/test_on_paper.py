@@ -17,7 +17,7 @@ from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.paper_items import TYPE_PT, Circle, Lines, Mark, Outline, Text, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.sheet import PlanSize
-from report.figures import plan as figures
+from report.figures import plan_figure as figures
 from report.package.html import part
 from report.pages.registry import package_data
 from report.project.model.choices import PlanPaper

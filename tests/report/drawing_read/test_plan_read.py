@@ -13,8 +13,8 @@ from fixtures.architect_plan import at
 from fixtures.dxf import BOX_FT, L_FT, LIBRECAD_R12, ROOF_FT, UNIT_FT, UNITS, Sketch, plan
 from fixtures.project_parts import FT, INCH, NO_SIDES
 from report.drawing.layers import Layer
-from report.drawing.plan import plan_drawing
 from report.drawing.plan_dxf import write_dxf
+from report.drawing.plan_layers import plan_drawing
 from report.drawing_read.closed_lines import OPEN
 from report.drawing_read.geometry import own_axes
 from report.drawing_read.heights import first_height, read_line

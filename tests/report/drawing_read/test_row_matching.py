@@ -15,8 +15,8 @@ from fixtures.dxf import ROOF_FT, Sketch
 from fixtures.filled_cells import typed_cells
 from fixtures.project_parts import FT
 from fixtures.workbooks import blank, type_into
+from report.drawing_read.plan_as_drawn import RoofPlan
 from report.drawing_read.roof_drawing import DrawnOutline
-from report.drawing_read.roof_plan import RoofPlan
 from report.drawing_read.row_matching import MOST_TOLD, matched
 from report.project.model.choices import ClearanceSource, LayerKind, UnitsFirst
 from report.project.model.placed import SIDES

@@ -20,10 +20,10 @@ from fixtures.study_workbooks import limit_state
 from report.assessment.support.spectra import spectra
 from report.drawing.sheet import LETTER
 from report.figures import charts as figures
-from report.figures import history
-from report.figures.history import STEP_IN, PanelScale, hodographs, path_of, thinned
-from report.figures.records import accelerations
-from report.figures.spectra import spectra as drawn_spectra
+from report.figures import history_charts
+from report.figures.history_charts import STEP_IN, PanelScale, hodographs, path_of, thinned
+from report.figures.record_charts import accelerations
+from report.figures.spectrum_charts import spectra as drawn_spectra
 from report.manual import stability_maps as manual
 from report.manual import work_figures as work
 from report.pages.drawings import draw_assessment, draw_plotted
@@ -59,8 +59,8 @@ def every_chart(assessment):
 
 
 def histories(array, us_first=True):
-    panels = [history.RunPanel("", run, run.history()) for run in array.motions]
-    return history.histories(panels, us_first)
+    panels = [history_charts.RunPanel("", run, run.history()) for run in array.motions]
+    return history_charts.histories(panels, us_first)
 
 
 def words(svg):
@@ -79,8 +79,8 @@ def test_charts_carry_no_date_one_font_and_the_same_bytes(charts, assessment):
 def test_envelopes_histories_and_comparisons_keep_what_they_show(assessment):
     rng = np.random.default_rng(3)
     t, u = np.arange(6000) * 0.005, np.cumsum(rng.standard_normal(6000))
-    t_few, u_few = history.envelope(t, u)
-    assert len(t_few) <= history.MAX_POINTS
+    t_few, u_few = history_charts.envelope(t, u)
+    assert len(t_few) <= history_charts.MAX_POINTS
     assert (u_few.min(), u_few.max()) == (u.min(), u.max())
     assert (t_few[0], t_few[-1]) == (t[0], t[-1])
     assert np.all(np.diff(t_few) > 0)
@@ -95,7 +95,7 @@ def test_envelopes_histories_and_comparisons_keep_what_they_show(assessment):
 
 def test_short_records_and_runs_without_a_value_are_drawn_as_such():
     t, u = np.arange(5.0), np.arange(5.0)
-    assert history.envelope(t, u) == (t, u)
+    assert history_charts.envelope(t, u) == (t, u)
     up = np.repeat((0.0, -1.5 * projects.G, 0.0), 100)
     still = projects.motion("M1", np.zeros(300), up, signs=(1,))
     done = assessments.package((still,) * 3).assessment
@@ -182,8 +182,8 @@ def test_a_run_in_one_axis_is_a_straight_line_and_one_without_a_value_none(array
 
 def test_the_second_unit_of_a_prd_gives_way_to_the_name_of_an_array_and_then_the_name(array):
     def titles(name):
-        panels = [history.RunPanel(name, run, run.history()) for run in array.motions]
-        shown = words(history.histories(panels, True))
+        panels = [history_charts.RunPanel(name, run, run.history()) for run in array.motions]
+        shown = words(history_charts.histories(panels, True))
         return [text for text in shown if ": " in text], "mm)" in " ".join(shown)
 
     for name, is_both in (("A1", True), ("WESTHALL", False)):

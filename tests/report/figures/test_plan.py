@@ -21,7 +21,7 @@ from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.paper_items import TYPE_PT, Text, width_in
 from report.drawing.sheet import LETTER, PlanSize, round_scale
 from report.figures.base import style
-from report.figures.plan import painted, paper_svg
+from report.figures.plan_figure import painted, paper_svg
 from solver.model import INCH_M
 
 NARROW = PlanSize(wide=4.5, tall=8.0, is_full=True)

@@ -7,7 +7,7 @@ import pytest
 from fixtures import pages
 from fixtures.verify_run import only
 from report.document.sections import section
-from report.manual.render import errors_by_version
+from report.manual.manual_files import errors_by_version
 from report.text.validation import VALIDATION
 from solver.verification.design_checks import design_checks
 from solver.verification.evidence import SECTIONS, Verified

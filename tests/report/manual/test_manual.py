@@ -13,9 +13,10 @@ import pytest
 from fixtures import commands, pages
 from fixtures.paths import RECORDS
 from fixtures.verify_run import only
+from report.manual.check_sections import summary
+from report.manual.manual_files import verification_csv
 from report.manual.measured_buildings import building, models
 from report.manual.precision import methods, work
-from report.manual.render import summary, verification_csv
 from report.text.error_text import percent
 from solver.building.roof import absolute_accelerations, roof_motion
 from solver.building.structure import beam_modes, building_of_periods
@@ -34,13 +35,8 @@ from solver.verification.building import (
     recorded_buildings,
 )
 from solver.verification.evidence import HELD, SECOND
-from solver.verification.study import (
-    CASES,
-    near_fault_pulse,
-    own_records,
-    own_triples,
-    shortened,
-)
+from solver.verification.study_cases import CASES
+from solver.verification.study_motions import near_fault_pulse, own_records, own_triples, shortened
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"

@@ -20,10 +20,10 @@ from report.assessment.checks.alike import alike
 from report.assessment.design.verdict import Verdict
 from report.assessment.support.spectra import spectra
 from report.drawing.on_paper import plan_on_paper
-from report.drawing.plan import plan_drawing
+from report.drawing.plan_layers import plan_drawing
 from report.drawing.sheet import LETTER
 from report.figures.base import style
-from report.figures.plan import painted
+from report.figures.plan_figure import painted
 from report.pages.checks import APART
 from report.pages.terminal import summary
 from report.project.read.archive import open_book

@@ -16,7 +16,7 @@ from fixtures.marks import by_day, nightly
 from fixtures.pages import FRONT, IDS, page_of, read
 from fixtures.project_parts import HEAD
 from report.drawing.on_paper import printed_plan
-from report.figures.plan import paper_svg
+from report.figures.plan_figure import paper_svg
 from report.package.html import pages as written
 from report.package.html import part
 from report.pages.drawings import draw_assessment

@@ -16,7 +16,7 @@ from fixtures.workbooks import make
 from report.assessment.checks.sentence import texts as check_texts
 from report.assessment.design.clearances import beside
 from report.assessment.support.spectra import spectra
-from report.drawing.plan import plan_drawing
+from report.drawing.plan_layers import plan_drawing
 from report.pages.terminal import summary
 from report.project.read.archive import open_book
 from report.results.results_json import results_json

@@ -20,8 +20,8 @@ from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
 from report.cli.project_findings import findings_before_runs, lines
 from report.drawing.layers import Layer
-from report.drawing.plan import plan_drawing
 from report.drawing.plan_dxf import write_dxf
+from report.drawing.plan_layers import plan_drawing
 from report.making import make
 from report.pages.registry import OF_MOTIONS, PAGES, package_data, pages_in
 from report.pages.terminal import summary

@@ -13,7 +13,7 @@ from report.assessment.design.tested_friction import tested as series_of
 from report.assessment.design.verdict import Verdict
 from report.drawing.drawn_slope import drawn_slope_deg
 from report.figures.charts import friction_by_velocity
-from report.figures.plan import array_section
+from report.figures.plan_figure import array_section
 from solver.friction_tests import fit_law
 
 AT = "at 1.00 in/s (25.4 mm/s)"

@@ -5,7 +5,8 @@ from functools import cache
 import pytest
 
 from fixtures import packages, tampering
-from report.proof.package import compared, opened
+from report.proof.opened_package import opened
+from report.proof.package_comparison import compared
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,8 @@ import pytest
 from pypdf import PdfReader
 
 from fixtures.growth import grows_faster
-from report.proof.contents import differences, first_other_word, pages, parsed, refused, words
+from report.proof.differences import differences, first_other_word, parsed
+from report.proof.pdf_contents import pages, refused, words
 from solver.errors import InputError
 
 pytestmark = pytest.mark.quick
@@ -39,7 +40,7 @@ def doubled_forms(pdf):
 
 
 def test_sheets_or_drawings_that_double_at_each_level_are_not_followed(monkeypatch):
-    monkeypatch.setattr("report.proof.contents.MOST_SECONDS", 0.5)
+    monkeypatch.setattr("report.proof.pdf_contents.MOST_SECONDS", 0.5)
     with pytest.raises(InputError, match="takes longer to read"):
         list(words(written(doubled_forms)))
 
@@ -55,7 +56,7 @@ def test_sheets_or_drawings_that_double_at_each_level_are_not_followed(monkeypat
 
 
 def test_objects_beyond_the_limit_are_not_followed(monkeypatch):
-    monkeypatch.setattr("report.proof.contents.MOST_OBJECTS", 100)
+    monkeypatch.setattr("report.proof.pdf_contents.MOST_OBJECTS", 100)
 
     def change(pdf):
         pdf.Root.Many = pikepdf.Array(range(101))

@@ -28,8 +28,9 @@ from pypdf import PdfReader
 from fixtures import commands, tampering
 from fixtures.marks import by_day
 from report.cli.one_package import warn_of_other_packages
-from report.proof.contents import refused
-from report.proof.package import compared, opened
+from report.proof.opened_package import opened
+from report.proof.package_comparison import compared
+from report.proof.pdf_contents import refused
 from report.proof.signatures import Appended, Signature, appended
 from report.typeset.finish import FIELD
 from solver.errors import InputError

@@ -18,7 +18,8 @@ from fixtures import commands, packages, tampering
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.workbooks import type_into
-from report.proof.package import Agreement, compared, failed, opened, take_out
+from report.proof.opened_package import opened, take_out
+from report.proof.package_comparison import Agreement, compared, failed
 from report.results.publish import OUTPUTS
 from solver.errors import InputError
 
@@ -293,7 +294,7 @@ def test_no_attachment_is_written_over_another(tmp_path, given, few_sheets, path
 
 
 def test_attachments_beyond_the_limits_and_two_workbooks_are_refused(data, monkeypatch, given):
-    monkeypatch.setattr("report.proof.package.MAX_TOTAL", 1000)
+    monkeypatch.setattr("report.proof.opened_package.MAX_TOTAL", 1000)
     with pytest.raises(InputError, match="unpack to more than"):
         opened(data)
     monkeypatch.undo()

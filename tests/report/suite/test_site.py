@@ -17,9 +17,8 @@ from fixtures.workbooks import cell_address, edit, make, type_into
 from report.project.read.read import read
 from report.results.added_motions import other_sources
 from report.results.publish import STAMP
-from report.suite.site_target import site_targets
 from report.suite.target_table import MAX_ROWS, read_target
-from report.suite.targets import ac156_targets
+from report.suite.targets import ac156_targets, site_targets
 from solver.errors import InputError
 from solver.rules.hazard import Tail
 

@@ -10,7 +10,7 @@ from fixtures.blocks import SCENES, readonly
 from solver.kernels import rivals
 from solver.sliding import two_axes
 from solver.verification.model_checks import stopped_scene
-from solver.verification.study import samples_of
+from solver.verification.study_cases import samples_of
 
 pytestmark = pytest.mark.quick
 

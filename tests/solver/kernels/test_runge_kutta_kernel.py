@@ -10,7 +10,7 @@ from solver.kernels import one_axis, runge_kutta
 from solver.model import coulomb
 from solver.sliding import two_axes
 from solver.verification.model_checks import stopped_scene
-from solver.verification.study import flat_scene, samples_of
+from solver.verification.study_cases import flat_scene, samples_of
 
 pytestmark = pytest.mark.quick
 

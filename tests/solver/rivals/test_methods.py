@@ -22,7 +22,8 @@ from solver.sliding.checked import slide, slide_history
 from solver.sliding.method import link_frequency
 from solver.verification import reference
 from solver.verification.model_checks import stopped_scene
-from solver.verification.study import Case, cut, own_triples, samples_of, scene_of
+from solver.verification.study_cases import Case, samples_of, scene_of
+from solver.verification.study_motions import cut, own_triples
 
 G = 9.80665
 STEPPED = ("paper", "linear", "adaptive")

@@ -12,12 +12,7 @@ from fixtures.campaigns import frozen, motion
 from fixtures.marks import by_day
 from solver import solve
 from solver.model import coulomb
-from solver.studies.capacity import (
-    ACCURACY,
-    Capacities,
-    Curve,
-    capacities,
-)
+from solver.studies.capacity import ACCURACY, Capacities, Curve, capacities
 from solver.studies.fragility import (
     deviance,
     fit_lognormal,

@@ -14,8 +14,9 @@ from solver.model import STANDARD_GRAVITY_MPS2, Status
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding import one_axis
-from solver.verification import stability, study, workprecision
-from solver.verification.study import CASES, compared_runs, near_fault_pulse, own_triples, shortened
+from solver.verification import stability, study_cases, workprecision
+from solver.verification.study_cases import CASES, compared_runs
+from solver.verification.study_motions import near_fault_pulse, own_triples, shortened
 
 
 @pytest.fixture(scope="module")
@@ -90,9 +91,9 @@ def test_a_failed_run_is_a_hole_with_its_status(record, monkeypatch):
 @pytest.mark.quick
 def test_what_is_timed_is_what_is_run(record):
     for case, name in itertools.product(CASES, ("exact", "paper", "penalty-implicit")):
-        method, scene = METHODS[name], study.prepared(record, case)
+        method, scene = METHODS[name], study_cases.prepared(record, case)
         outcome = method.follow(scene, method.parameters, np.empty((2, 0)))
-        assert scene.cs * outcome.s_end == study.run(record, case, name).residual_m
+        assert scene.cs * outcome.s_end == study_cases.run(record, case, name).residual_m
 
 
 # Two axes

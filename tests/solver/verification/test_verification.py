@@ -11,14 +11,8 @@ from fixtures import verify_run
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide
-from solver.verification import checks, paper_studies, reference, study
-from solver.verification.evidence import (
-    ROUNDING,
-    SECTIONS,
-    DesignCurves,
-    Verified,
-    percent_off,
-)
+from solver.verification import checks, paper_studies, reference, study_cases
+from solver.verification.evidence import ROUNDING, SECTIONS, DesignCurves, Verified, percent_off
 from solver.verification.features import FEATURES, statuses
 from solver.verification.model_checks import model_checks
 from solver.verification.reference import (
@@ -28,8 +22,8 @@ from solver.verification.reference import (
     slope_pulse,
     yield_accelerations,
 )
-from solver.verification.study import (
-    Case,
+from solver.verification.study_cases import Case
+from solver.verification.study_motions import (
     near_fault_pulse,
     own_records,
     own_triples,
@@ -241,7 +235,7 @@ def test_design_curves_are_the_papers_6960_runs(verification):
     assert curves.runs == 6960
     assert curves.prd_m.shape == (15, 15, 16)
     cases = [Case(slope_deg, curves.mus[2], curves.ppas_g[15]) for slope_deg in (-4.0, 4.0)]
-    both_m = [study.run(own_records(True)[0], case).prd_m for case in cases]
+    both_m = [study_cases.run(own_records(True)[0], case).prd_m for case in cases]
     assert curves.prd_m[8, 2, 15] == pytest.approx(max(both_m), rel=1e-9)
 
 

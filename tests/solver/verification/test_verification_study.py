@@ -13,7 +13,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, HorizontalComponent, Orientation
 from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes
 from solver.sliding.checked import motion, slide
-from solver.verification import model_checks, model_study, study
+from solver.verification import model_checks, model_study, study_cases, study_motions
 from solver.verification.evidence import (
     HELD,
     LEAST_M,
@@ -26,9 +26,8 @@ from solver.verification.evidence import (
     WORST,
     ModelChange,
 )
-from solver.verification.study import (
-    AS_RECORDED,
-    Case,
+from solver.verification.study_cases import AS_RECORDED, Case
+from solver.verification.study_motions import (
     near_fault_pulse,
     own_triples,
     scale_to,
@@ -43,17 +42,17 @@ MADE = motion(X, Y, Z, dt_s=0.1, id="made")
 @pytest.mark.quick
 def test_scenes_are_those_of_each_motion_in_turn_scaled_to_the_case():
     turned = Orientation(component=HorizontalComponent.TRANSVERSE, polarity=-1)
-    scenes = study.scenes_of([MADE], study.MODEL_CASES, (AS_RECORDED, turned))
+    scenes = study_cases.scenes_of([MADE], study_cases.MODEL_CASES, (AS_RECORDED, turned))
     assert [scene.friction.mu_slow for scene in scenes] == [0.3, 0.4, 0.5] * 2
     assert scenes[0].ax_mps2.tolist() == X.tolist()
     assert scenes[3].ax_mps2.tolist() == (-Y).tolist()
     assert scenes[3].ay_mps2.tolist() == X.tolist()
     assert scenes[2].scale == scenes[5].scale == pytest.approx(1.5 * 9.80665 / 6.0)
-    (scene,) = study.scenes_of([MADE], study.MODEL_CASES[:1])
-    assert study.faded(scene, 0.5).ay_mps2.tolist() == [0.0, 0.5, 1.0, 0.0]
-    assert study.faded(scene, 0.0).ay_mps2.size == 0
+    (scene,) = study_cases.scenes_of([MADE], study_cases.MODEL_CASES[:1])
+    assert study_cases.faded(scene, 0.5).ay_mps2.tolist() == [0.0, 0.5, 1.0, 0.0]
+    assert study_cases.faded(scene, 0.0).ay_mps2.size == 0
     wanted = (0.0, 0.3, 0.5), (0.0, 0.3, 1.0), (2.0, 0.3, 0.5), (2.0, 0.3, 1.0)
-    found = study.grid((0.0, 2.0), (0.3,), (0.5, 1.0))
+    found = study_cases.grid((0.0, 2.0), (0.3,), (0.5, 1.0))
     assert found == tuple(Case(*values) for values in wanted)
 
 
@@ -61,9 +60,11 @@ def test_scenes_are_those_of_each_motion_in_turn_scaled_to_the_case():
 def test_runs_are_those_of_a_slide_and_of_the_law_of_their_own_friction():
     push = np.array([0.0, 5.0, -5.0, 0.0])
     half, whole, double = (
-        study.flat_scene(push, 0.0 * push, 0.1, coulomb(mu)) for mu in (0.05, 0.1, 0.2)
+        study_cases.flat_scene(push, 0.0 * push, 0.1, coulomb(mu)) for mu in (0.05, 0.1, 0.2)
     )
-    halved = study.plane_prds([whole, double], lambda mu: coulomb(0.5 * mu), study.TIGHT)
+    halved = study_cases.plane_prds(
+        [whole, double], lambda mu: coulomb(0.5 * mu), study_cases.TIGHT
+    )
     by_hand = [one_axis.run(scene).prd_m for scene in (half, whole)]
     assert halved == pytest.approx(by_hand, rel=1e-9)
     assert halved[0] > halved[1] > 0.0
@@ -72,25 +73,25 @@ def test_runs_are_those_of_a_slide_and_of_the_law_of_their_own_friction():
     place = {"slope_rad": math.radians(4.0), "mu": 0.2, "scale": scale_to(record, 0.5)}
     direct = slide(record.a_mps2, record.dt_s, **place, **by)
     assert direct.prd_m > 0.0
-    assert study.run(record, case, **by).prd_m == direct.prd_m
-    assert study.history(record, case, **by).u_m[-1] == direct.residual_m
-    assert study.run(record, case).prd_m == study.run(record, case, "exact").prd_m
+    assert study_cases.run(record, case, **by).prd_m == direct.prd_m
+    assert study_cases.history(record, case, **by).u_m[-1] == direct.residual_m
+    assert study_cases.run(record, case).prd_m == study_cases.run(record, case, "exact").prd_m
 
 
 @pytest.mark.quick
 def test_a_long_run_is_timed_once_and_the_least_of_the_repeats_of_a_short_one_counts(monkeypatch):
     calls, ticks = [], iter([0.0, 3.0])
-    monkeypatch.setattr(study.time, "process_time", lambda: next(ticks))
-    assert study.processor_seconds(lambda: calls.append(0)) == 3.0
+    monkeypatch.setattr(study_cases.time, "process_time", lambda: next(ticks))
+    assert study_cases.processor_seconds(lambda: calls.append(0)) == 3.0
     assert len(calls) == 1
     ticks = iter([0.0, 0.01, 1.0, 1.03, 2.0, 2.02, 3.0, 3.04, 4.0, 4.05, 5.0, 5.06])
-    assert study.processor_seconds(lambda: calls.append(0)) == pytest.approx(0.02)
-    assert len(calls) == 1 + 1 + study.REPEATS
+    assert study_cases.processor_seconds(lambda: calls.append(0)) == pytest.approx(0.02)
+    assert len(calls) == 1 + 1 + study_cases.REPEATS
 
 
 @pytest.mark.quick
 def test_the_best_point_is_the_first_of_the_least():
-    assert study.best_of(lambda x: (x - 1) ** 2, [3, 2, 0, 5]) == (1, 2)
+    assert study_cases.best_of(lambda x: (x - 1) ** 2, [3, 2, 0, 5]) == (1, 2)
 
 
 # Motions of three components
@@ -98,19 +99,19 @@ def test_the_best_point_is_the_first_of_the_least():
 
 @pytest.fixture(scope="module")
 def own():
-    (only,) = study.own_triples(True)
+    (only,) = study_motions.own_triples(True)
     return only
 
 
 @pytest.mark.quick
 def test_own_and_recorded_motions_have_one_factor_and_a_part_is_the_strongest(own, tmp_path):
-    assert np.shares_memory(own.ax_mps2, study.own_records(True)[0].a_mps2)
-    assert own.source != study.RECORDED
+    assert np.shares_memory(own.ax_mps2, study_motions.own_records(True)[0].a_mps2)
+    assert own.source != study_motions.RECORDED
     assert not np.array_equal(own.ax_mps2, own.ay_mps2)
-    scale = study.triple_scale(own, 0.5)
+    scale = study_motions.triple_scale(own, 0.5)
     peaks = [np.abs(a).max() * scale for a in (own.ax_mps2, own.ay_mps2)]
     assert max(peaks) == pytest.approx(0.5 * 9.80665)
-    part = study.cut(own, 101)
+    part = study_motions.cut(own, 101)
     assert part.ax_mps2.size == part.ay_mps2.size == part.az_mps2.size == 101
     assert not part.ax_mps2.flags.writeable
     energy = np.sum(part.ax_mps2**2 + part.ay_mps2**2)
@@ -119,9 +120,9 @@ def test_own_and_recorded_motions_have_one_factor_and_a_part_is_the_strongest(ow
     for path in SAMPLES.iterdir():
         shutil.copy(path, tmp_path / "below" / path.name)
     (tmp_path / "notes.txt").write_text("no motion")
-    triples = study.recorded_triples(tmp_path)
+    triples = study_motions.recorded_triples(tmp_path)
     assert triples
-    assert all(triple.source == study.RECORDED for triple in triples)
+    assert all(triple.source == study_motions.RECORDED for triple in triples)
     assert all(
         triple.ax_mps2.size == triple.ay_mps2.size == triple.az_mps2.size for triple in triples
     )
@@ -130,7 +131,7 @@ def test_own_and_recorded_motions_have_one_factor_and_a_part_is_the_strongest(ow
 def test_the_vertical_is_told_by_its_name_wherever_it_stands():
     if not RECORDS.is_dir():
         pytest.skip("the real records are not here")
-    triples = {triple.id: triple for triple in study.recorded_triples(RECORDS)}
+    triples = {triple.id: triple for triple in study_motions.recorded_triples(RECORDS)}
     assert np.abs(triples["20161113_110259_WTMC_20"].az_mps2).max() == pytest.approx(
         18.02, abs=0.01
     )

@@ -15,17 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from report.assessment.support.spectra import Spectra
-from report.figures.base import (
-    ACCENT,
-    GRAY,
-    INK,
-    PALE,
-    WIDTH_IN,
-    T,
-    bare,
-    style,
-    svg_text,
-)
+from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, T, bare, style, svg_text
 from solver.model import Floats
 
 _ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.6, 0.26, 0.5, 0.24

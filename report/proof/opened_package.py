@@ -1,6 +1,6 @@
-"""Opens an untrusted package, takes out its files, and compares it with the one made again.
+"""An untrusted package, opened, with the files that it holds. Read `opened`, then `take_out`.
 
-Owns the limits on size and on where files may be taken out to. Read `opened`, then `compared`.
+Owns the limits on size and on where files may be taken out to.
 """
 
 from __future__ import annotations
@@ -9,11 +9,9 @@ import hashlib
 import io
 import logging
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from enum import StrEnum
-from itertools import zip_longest
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -23,11 +21,9 @@ from pypdf.generic import ByteStringObject, TextStringObject
 
 from report.motions.files import MAX_BYTES as MAX_RECORD
 from report.project.read.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
-from report.proof.contents import differences, first_other_word, guarded, parsed, refused, words
-from report.proof.signatures import Appended, Signature, appended
-from report.provenance.known_errors import KnownError
+from report.proof.differences import parsed
+from report.proof.pdf_contents import guarded
 from report.provenance.package_sources import MANIFEST, RESULTS, SCHEMA_VERSION, Listed, Manifest
-from report.provenance.release import version
 from solver.errors import InputError
 from solver.file_checks import read_file, within
 from solver.suggestions import meant
@@ -231,130 +227,3 @@ def warn_of_other_input(written: Path, earlier: Sequence[Path]) -> None:
 
 def _inputs(package: OpenedPackage) -> set[tuple[str, str]]:
     return {(file.path, file.sha256) for file in package.manifest.files if file.kind != "results"}
-
-
-class Agreement(StrEnum):
-    """How a package compares with the one made again."""
-
-    SAME = "same"
-    PARTLY = "not compared in full"
-    DIFFERS = "differs"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Proof:
-    """The outcome of a comparison."""
-
-    answer: Agreement
-    reasons: Sequence[str] = ()  # what differs, or what was not compared
-    signed: Sequence[Signature] = ()  # put on after the package was written
-    is_to_be_read: bool = False  # whether the package made again shows what was not compared
-    known_errors: Sequence[KnownError] = ()  # of earlier versions, which the package may have
-
-
-_UNCHECKED = (
-    "the signature and what came with it were not checked; that needs the extra 'sign', which "
-    "./roofslip sign installs"
-)
-
-
-def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
-    """Compare a package with the one made again from its input.
-
-    Raises `InputError` if the package is damaged or larger than any package.
-    """
-    if package.data == made.data:
-        return Proof(answer=Agreement.SAME)
-    # What is appended leaves the bytes before it as they were; so are signatures put on.
-    is_same = package.data.startswith(made.data)
-    fields = guarded(lambda: signed_fields(package.pdf))
-    later = appended(package.data, made.data if is_same else b"") if fields else Appended()
-    if is_same and not fields:
-        later = Appended(problems=("appended: bytes that no signature covers",))
-    # The first one is enough: a hostile file could have millions.
-    first = guarded(lambda: next(_reasons(package, made, later, is_same=is_same), ""))
-    if first:
-        return Proof(answer=Agreement.DIFFERS, reasons=(first,), signed=later.signed)
-    # Drawings are never compared: another version of a library may move a line by a thousandth.
-    reasons = [] if is_same else [_not_compared(package.manifest, made.manifest)]
-    reasons += [] if later.is_checked else [_UNCHECKED]
-    return Proof(
-        answer=Agreement.PARTLY if reasons else Agreement.SAME,
-        reasons=tuple(reasons),
-        signed=later.signed,
-        is_to_be_read=not is_same,
-    )
-
-
-def failed(package: OpenedPackage, problems: Sequence[str]) -> Proof:
-    """Return the outcome for a package whose input does not run here."""
-    reason = f"its input does not run: {'; '.join(problems)}"
-    # What another version accepted may be refused here, and is then no sign of tampering.
-    if not _is_other(package.manifest.roofslip_version):
-        return Proof(answer=Agreement.DIFFERS, reasons=(reason,))
-    return Proof(answer=Agreement.PARTLY, reasons=(_other_version(package.manifest), reason))
-
-
-def _not_compared(theirs: Manifest, ours: Manifest) -> str:
-    if _is_other(theirs.roofslip_version):
-        return f"{_other_version(theirs)}; words and drawings not compared: {_READ}"
-    versions = [
-        f"{name} {theirs.environment.get(name, 'none')} (here {version})"
-        for name, version in ours.environment.items()
-        if theirs.environment.get(name) != version
-    ]
-    names = f"; it names {', '.join(versions)}" if versions else ""
-    return f"drawings not compared: {_READ}{names}"
-
-
-_READ = "read the regenerated package"
-
-
-def _is_other(theirs: str) -> bool:
-    # Of an unknown commit, or of one that was edited, there are many programs of the same name.
-    return theirs != version() or theirs.endswith(("+unknown", ".dirty"))
-
-
-def _other_version(theirs: Manifest) -> str:
-    return f"Roofslip {theirs.roofslip_version} made it: install that version to compare all of it"
-
-
-def _reasons(
-    package: OpenedPackage, made: OpenedPackage, later: Appended, *, is_same: bool
-) -> Iterator[str]:
-    """Yield what differs or what no package has."""
-    yield from later.problems
-    # Before words: a script may replace them when a reader opens the file.
-    yield from refused(package.pdf)
-    # What is appended may replace a sheet, where nobody has looked at it.
-    if is_same and later.is_checked:
-        return
-    # Versions differ in which keys they write, and in the words of their pages.
-    is_shared = _is_other(package.manifest.roofslip_version)
-    if not is_shared:
-        listed = (_listing(package), _listing(made))
-        yield from (f"{MANIFEST}: {text}" for text in differences(*listed))
-    numbers = differences(package.results, made.results, shared=is_shared)
-    yield from (f"{RESULTS}: {text}" for text in numbers)
-    if not is_shared:
-        yield from _words(package, made)
-
-
-def _listing(package: OpenedPackage) -> Any:
-    """Return the manifest without versions, and without the hash of the results."""
-    listing = {key: value for key, value in package.listing.items() if key != "environment"}
-    return listing | {"files": [file for file in listing["files"] if file["kind"] != "results"]}
-
-
-def _words(package: OpenedPackage, made: OpenedPackage) -> Iterator[str]:
-    theirs, ours = package.manifest.environment, made.manifest.environment
-    for stated, remade in zip_longest(words(package.pdf), words(made.pdf)):
-        if stated is None or remade is None:
-            yield f"{(stated or remade)[0]}: {'missing' if stated is None else 'not of this input'}"
-            return
-        computed = " ".join(remade[1].split())
-        # The sheets print the versions: only these words may differ with them.
-        for name, release in ours.items():
-            computed = computed.replace(f"{name} {release}", f"{name} {theirs.get(name, 'none')}")
-        if first := first_other_word(stated[1], computed):
-            yield f"{stated[0]}: {first}"

@@ -11,16 +11,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from report.drawing.paper_items import width_in
-from report.figures.base import (
-    GRAY,
-    INK,
-    WIDTH_IN,
-    Broken,
-    canvas,
-    style,
-    svg_text,
-)
-from report.figures.history import envelope
+from report.figures.base import GRAY, INK, WIDTH_IN, Broken, canvas, style, svg_text
+from report.figures.history_charts import envelope
 from report.text.names import name_lines
 from report.text.units import G_MPS2, round_below
 from solver.model import Floats, Motion

@@ -1,8 +1,6 @@
-"""What the studies share: records, cases, scenes and their variants, runs, times and misfits.
+"""The cases of the studies, how they are run, and how their times and misfits are measured.
 
 A study chooses its variants and counts the results. Read `grid`, `scenes_of`, `processor_seconds`.
-
-Motions of three components for the comparison of models: generated, or recorded in a folder.
 """
 
 from __future__ import annotations
@@ -12,16 +10,13 @@ import math
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from itertools import product
-from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from solver.errors import InputError
 from solver.forces import forces
-from solver.formats import read_motion_file
 from solver.model import (
     STANDARD_GRAVITY_MPS2,
     Floats,
@@ -37,19 +32,9 @@ from solver.model import (
 from solver.records.record import NO_RECORD, Record, read_only
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
-from solver.rules.hazard import Target
 from solver.sliding import checked, one_axis, two_axes
-from solver.sliding.checked import motion
 from solver.sliding.method import AxisScene, Method
-from solver.synthesis.suite import SuiteMotion, make_suite
-
-SEED = 2003
-"""Seed of the project's generated records."""
-
-HORIZONTAL: Target = (np.array([0.1, 1.3, 8.3, 33.3]), np.array([0.16, 1.6, 1.6, 1.2]))
-"""Corners of an AC156 spectrum at the roof, S_DS = 1 g: frequencies [Hz], accelerations [g]."""
-
-VERTICAL: Target = (np.array([0.1, 1.3, 8.3, 33.3]), np.array([0.067, 0.67, 0.67, 0.27]))
+from solver.verification.study_motions import own_records, scale_to, triple_scale
 
 
 class Case(NamedTuple):
@@ -79,45 +64,6 @@ CASES = (
 )
 
 
-def own_records(quick: bool) -> tuple[Record, ...]:
-    """Return the project's records: motions matched to AC156, and a near-fault pulse."""
-    return (*(motion.x for motion in own_suite(quick)), near_fault_pulse())
-
-
-@lru_cache
-def own_suite(quick: bool) -> tuple[SuiteMotion, ...]:
-    """Return the motions whose first components are the records."""
-    count = 1 if quick else 2
-    return tuple(make_suite(HORIZONTAL, VERTICAL, count=count, seed=SEED, dt_s=0.01))
-
-
-def near_fault_pulse() -> Record:
-    """Return a 2 s pulse with a Gaussian envelope, after Mavroeidis and Papageorgiou (2003)."""
-    dt = 0.01
-    t = np.arange(801) * dt - 4.0
-    a = np.exp(-((t / 1.2) ** 2)) * np.sin(math.pi * t) * STANDARD_GRAVITY_MPS2
-    return Record(name="near-fault-pulse", dt_s=dt, a_mps2=read_only(a))
-
-
-def scale_to(record: Record, ppa_g: float) -> float:
-    """Return the factor that scales the peak of the record to `ppa_g` [g]."""
-    return ppa_g * STANDARD_GRAVITY_MPS2 / float(np.abs(record.a_mps2).max())
-
-
-def shortened(record: Record, duration_s: float) -> Record:
-    """Return the part of the record of that length with the most energy."""
-    count = round(duration_s / record.dt_s) + 1
-    a = read_only(record.a_mps2[strongest(record.a_mps2**2, count)])
-    return Record(name=f"{record.name}, strongest {duration_s:g} s", dt_s=record.dt_s, a_mps2=a)
-
-
-def strongest(energy: Floats, count: int) -> slice:
-    """Return the consecutive samples, at most `count`, with the most energy."""
-    sums = np.convolve(energy, np.ones(min(count, energy.size)), "valid")
-    first = int(sums.argmax())
-    return slice(first, first + count)
-
-
 def runnable_methods() -> list[Method]:
     """Return the methods, without those of SciPy where it is not installed."""
     scipy = by_scipy.is_installed()
@@ -129,19 +75,7 @@ def compared_runs(quick: bool) -> list[tuple[Record, Case]]:
     return list(itertools.product(own_records(quick), CASES[:3] if quick else CASES))
 
 
-RECORDED = "recorded"
-"""Source of the motions recorded in earthquakes; the others are generated."""
-
 AS_RECORDED = Orientation(component=HorizontalComponent.RECORD, polarity=1)
-
-_UP = ("up", "v", "ud", "vertical", "vert", "z")
-"""Words in a channel's name that mark the vertical component."""
-
-
-def triple_scale(triple: Motion, ppa_g: float) -> float:
-    """Return the factor that scales the larger horizontal peak to `ppa_g` [g]."""
-    peak = max(float(np.abs(a).max()) for a in (triple.ax_mps2, triple.ay_mps2))
-    return ppa_g * STANDARD_GRAVITY_MPS2 / peak
 
 
 def scene_of(
@@ -163,49 +97,6 @@ def scene_of(
     )
 
 
-def cut(triple: Motion, samples: int) -> Motion:
-    """Return the `samples` consecutive samples with the most horizontal energy."""
-    part = strongest(triple.ax_mps2**2 + triple.ay_mps2**2, samples)
-    x, y, z = (read_only(a[part]) for a in triple.components.values())
-    name = f"{triple.id}, strongest {(samples - 1) * triple.dt_s:g} s"
-    return replace(triple, id=name, ax_mps2=x, ay_mps2=y, az_mps2=z)
-
-
-def own_triples(quick: bool) -> tuple[Motion, ...]:
-    """Return the project's generated motions, whose components match AC156 spectra."""
-    return tuple(
-        motion(*made.components, id=made.x.name.removesuffix("-x"), source="generated")
-        for made in own_suite(quick)
-    )
-
-
-def recorded_triples(folder: Path) -> tuple[Motion, ...]:
-    """Return the motions of all files below a folder that hold three components.
-
-    Two horizontal components and one named up or vertical; files that cannot be read or have
-    other channels are skipped.
-    """
-    triples = (_triple(path) for path in sorted(folder.rglob("*")) if path.is_file())
-    return tuple(triple for triple in triples if triple is not None)
-
-
-def _triple(path: Path) -> Motion | None:
-    try:
-        channels = read_motion_file(path).channels
-        up = [channel for channel in channels if _is_vertical(channel)]
-        level = [channel for channel in channels if not _is_vertical(channel)]
-        if len(up) != 1 or len(level) != 2:
-            return None
-        return motion(*level, *up, id=path.stem, source=RECORDED)
-    except InputError:
-        return None
-
-
-def _is_vertical(channel: Record) -> bool:
-    words = channel.name.lower().replace(":", " ").replace("(", " ").split()
-    return any(word in _UP for word in words)
-
-
 T = TypeVar("T")
 
 TIGHT = 1e-10
@@ -213,10 +104,11 @@ TIGHT = 1e-10
 
 MODEL_CASES = (Case(0.0, 0.3, 1.0), Case(2.0, 0.4, 1.0), Case(5.0, 0.5, 1.5))
 """Cases on which the models are checked and timed."""
-
 REPEATS = 5
+
 ENOUGH_S = 0.02
 """Repeats end after this number, or after this time [s]."""
+
 BATCH_S = 1e-3
 """Time that short runs are repeated for between two readings of the clock [s]."""
 
