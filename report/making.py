@@ -104,7 +104,7 @@ def make(
 
     progress(Step("laying out the package"))
     sheet_counts: list[int] = []
-    short = fingerprint(sheet, motions)
+    short = fingerprint(sheet.source, motions)
     pdf = lay_out(html, attachments(files, results, short), sheet_counts.append)
     if assessment.project.options.package_edition is PackageEdition.LETTER and sheet_counts[0] > 2:
         raise InputError(

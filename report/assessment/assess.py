@@ -27,7 +27,7 @@ from report.project.check.covered import outdated
 from report.project.check.faults import faults
 from report.project.model import ProjectInput
 from report.project.model.finding import Finding
-from report.project.read.workbook_data import Sheet
+from report.project.read.workbook_data import Sheet, Source
 from report.project.workbook import SECTIONS
 from report.runs import Runs
 from solver.records.acceptance import Acceptance
@@ -46,18 +46,27 @@ def assess(
     sheet: Sheet,
     shaking: Shaking,
     runs: Runs | None = None,
-    project: ProjectInput | None = None,
     *,
     acceptance: Acceptance | None = None,
     extent: Extent = Extent.WHOLE,
 ) -> Assessment:
     """Assess a project under its motions, with the runs that there are and those that it lacks.
 
-    A `project` is assessed in place of that of the sheet. The `acceptance` of the motions is
-    computed unless it is known. Raises as `rule_set_of`.
+    The `acceptance` of the motions is computed unless it is known. Raises as `rule_set_of`.
     """
-    runs, motions = runs or Runs(), shaking.motions
-    data = project or outdated(sheet.project, shaking.hashes)
+    data = outdated(sheet.project, shaking.hashes)
+    return _assess(data, sheet.source, shaking, runs or Runs(), acceptance, extent)
+
+
+def _assess(
+    data: ProjectInput,
+    source: Source,
+    shaking: Shaking,
+    runs: Runs,
+    acceptance: Acceptance | None,
+    extent: Extent,
+) -> Assessment:
+    motions = shaking.motions
     rules, goals = rule_set_of(data), targets(data)
     less_friction, slow = with_friction(data, 1.0 - SHIFT), with_low_velocity(data)
     runs.begin(data.arrays, motions)
@@ -77,15 +86,15 @@ def assess(
     clearances = tuple(check_clearance(data, rules, slides, row) for row in data.clearances)
     plain, adopted = as_adopted(data), None
     if plain is not data:
-        adopted = assess(sheet, shaking, runs, plain, acceptance=acceptance, extent=Extent.ALONE)
+        adopted = _assess(plain, source, shaking, runs, acceptance, Extent.ALONE)
         arrays = tuple(map(marked, arrays, adopted.arrays))
         pairs = zip(clearances, adopted.clearances, strict=True)
         clearances = tuple(marked_gap(gap, as_adopted_gap, arrays) for gap, as_adopted_gap in pairs)
     done = Assessment(
-        sheet=sheet,
+        project=data,
+        source=source,
         shaking=shaking,
         runs=runs,
-        project=data,
         rules=rules,
         targets=goals,
         arrays=arrays,
@@ -122,7 +131,7 @@ def reassess(
         )
     is_known = not without and all(getattr(project, k) == getattr(done.project, k) for k in same)
     acceptance = done.acceptance if is_known else None
-    return assess(done.sheet, shaking, done.runs, project, acceptance=acceptance, extent=extent)
+    return _assess(project, done.source, shaking, done.runs, acceptance, extent)
 
 
 def entered(done: Assessment, project: ProjectInput) -> Assessment | None:

@@ -28,7 +28,7 @@ from report.motions.prepare import Shaking
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.roof import RoofObject
-from report.project.read.workbook_data import Sheet
+from report.project.read.workbook_data import Source
 from report.runs import Runs, scene_key
 from report.text.grouping import grouped_by
 from report.text.units import nan_is_worst
@@ -40,10 +40,10 @@ from solver.rules.provisions import RuleSet
 class Assessment:
     """What was assessed, and what came of it."""
 
-    sheet: Sheet  # the workbook as data
+    project: ProjectInput  # as assessed: that of the workbook, or a changed one
+    source: Source  # the workbook, of which cells and files are printed
     shaking: Shaking  # the motions at the roof
     runs: Runs = field(compare=False, repr=False)  # of the arrays, and of others that were tried
-    project: ProjectInput  # as assessed: that of the sheet, except with changed friction
     rules: RuleSet
     targets: Targets  # target spectra of the motions: AC156 or project-specific
     arrays: tuple[ArrayAssessment, ...]
@@ -81,7 +81,7 @@ class Assessment:
                 return math.nan, ""
             return _required_separation(self, near)
 
-        return plan_pairs(self.project, reaches_of(self.arrays), self.sheet.addresses, required)
+        return plan_pairs(self.project, reaches_of(self.arrays), self.source.addresses, required)
 
     @cached_property
     def neighbors(self) -> tuple[PlanNeighbor, ...]:

@@ -35,7 +35,7 @@ from report.project.model import ProjectInput
 from report.project.model.finding import Finding, limit, note
 from report.project.model.place import Place
 from report.project.read.unseen import warnings
-from report.project.read.workbook_data import Sheet
+from report.project.read.workbook_data import Sheet, Source
 from report.text.command_line import quoted
 from report.text.counts import numbered
 from report.text.units import Quantity, no_less, no_more, pair
@@ -46,14 +46,11 @@ from solver.records.block_spectra import together
 MOST_NAMED = 50
 
 
-def findings(sheet: Sheet, shaking: Shaking) -> tuple[Finding, ...]:
+def findings(source: Source, data: ProjectInput, shaking: Shaking) -> tuple[Finding, ...]:
     """Return what an engineer is asked about, with the reasons that the workbook gives."""
-    data = sheet.project
-    hidden = [*sheet.unseen, *chain.from_iterable(file.unseen for file in shaking.records)]
-    return acknowledged(
-        data,
-        [*sheet.warnings, *warnings(hidden), *implausible(data), *record_findings(data, shaking)],
-    )
+    hidden = [*source.unseen, *chain.from_iterable(file.unseen for file in shaking.records)]
+    of_input = [*implausible(data), *record_findings(data, shaking)]
+    return acknowledged(data, [*source.warnings, *warnings(hidden), *of_input])
 
 
 def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:

@@ -44,7 +44,7 @@ def report_one(
     )
     if as_json:
         files = {"files": [str(made.folder / name) for name in made.files]}
-        workbook = made.assessment.sheet.path
+        workbook = made.assessment.source.path
         print_json(document(workbook) | summaries.document(made.assessment) | files)
     elif not quiet:
         for line in lines:

@@ -40,7 +40,7 @@ def findings_before_runs(
         *limits_before_runs(sheet.project, motions),
         *missing_clearances(sheet),
         *other_sources(sheet),
-        *findings(sheet, motions),
+        *findings(sheet.source, sheet.project, motions),
     ]
     if not motions.motions:
         # Only here: with motions, nothing is assessed, and a check takes 0.4 s less without these.

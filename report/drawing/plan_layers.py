@@ -323,7 +323,7 @@ def title_block(assessment: Assessment) -> Sequence[tuple[str, str]]:
         ("REVISION", project.revision),
         ("DATE", str(project.date)),
         ("BY", project.prepared_by),
-        ("HASH OF THE CALCULATION", fingerprint(assessment.sheet, assessment.shaking)),
+        ("HASH OF THE CALCULATION", fingerprint(assessment.source, assessment.shaking)),
         ("VERDICT", assessment.verdict.value),
     )
 

@@ -33,8 +33,8 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[tuple
         yield Consequence.NOTE.value, lacks
     for check in alike(assessment.notes):
         yield Consequence.NOTE.value, sentence(check, us_first)
-    listed = findings(assessment.sheet, assessment.shaking)
-    for line in lines(listed, assessment.sheet.addresses):
+    listed = findings(assessment.source, assessment.project, assessment.shaking)
+    for line in lines(listed, assessment.source.addresses):
         if line.level is Level.WARNING:
             answer = f" Acknowledged: {line.reason}" if line.reason else ""
             yield "warning", f"{line.cell}: {line.text} [{line.id}]{answer}"

@@ -24,11 +24,11 @@ MOST_LETTERS = 24
 
 def page(package: PackageData) -> Mapping[str, object]:
     """Return the workbook, and its sheets as tables."""
-    sheet = package.assessment.sheet
+    source = package.assessment.source
     return {
-        "workbook": sheet.path.name,
-        "sha256": sheet.sha256,
-        "sheets": echo(sheet.echo, package.changes.cells),
+        "workbook": source.path.name,
+        "sha256": source.sha256,
+        "sheets": echo(source.echo, package.changes.cells),
     }
 
 

@@ -56,7 +56,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "membrane": data.friction_tests.membrane,
         "support": data.friction_tests.support,
         "has_motions": done.has_motions,
-        "workbook": done.sheet.path.name,
+        "workbook": done.source.path.name,
     }
 
 

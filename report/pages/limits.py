@@ -38,10 +38,10 @@ def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
 
     A contradiction of the plan is also among the requirements.
     """
-    sheet = package.assessment.sheet
-    listed = findings(sheet, package.assessment.shaking)
+    done = package.assessment
+    listed = findings(done.source, done.project, done.shaking)
     warnings = [finding for finding in listed if finding.level is Level.WARNING]
-    for line in lines(warnings, sheet.addresses):
+    for line in lines(warnings, done.source.addresses):
         yield line.cell, f"{line.text}.", line.reason or "not acknowledged"
 
 

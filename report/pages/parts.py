@@ -100,7 +100,7 @@ class PackageData:
     @property
     def fingerprint(self) -> str:
         """Short hash of workbook, records and version, at the foot of every sheet."""
-        return fingerprint(self.assessment.sheet, self.assessment.shaking)
+        return fingerprint(self.assessment.source, self.assessment.shaking)
 
     def rule_length(self, key: str) -> str:
         """Return a length of the rule set in both systems of units, with its marks."""

@@ -56,7 +56,7 @@ def letter(package: PackageData) -> Mapping[str, object]:
         "tests": data.friction_tests,
         "report": friction_report(data.friction_tests),
         "fingerprint": package.fingerprint,
-        "workbook": done.sheet.path.name,
+        "workbook": done.source.path.name,
     }
 
 

@@ -34,11 +34,11 @@ def page(package: PackageData) -> Mapping[str, object]:
         "documents": [
             f"{document.label}, {document.path}, {number(document.size / 1000.0, 1)}{NO_BREAK}kB, "
             f"{document.sha256[:12]}…"
-            for document in done.sheet.documents
+            for document in done.source.documents
         ],
         "software": ", ".join(f"{name} {version}" for name, version in versions().items()),
-        "workbook": done.sheet.path.name,
-        "short_hash": done.sheet.sha256[:SHORT],
+        "workbook": done.source.path.name,
+        "short_hash": done.source.sha256[:SHORT],
         "record_files": counted(len(record_paths(records)), "record file"),
         "has_files": holds_records(records),
         "files_mb": number(record_bytes(records) / 1e6, 1),

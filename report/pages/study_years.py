@@ -9,8 +9,7 @@ from report.assessment.design.arrays import ArrayAssessment
 from report.document.columns import text, words
 from report.document.tables import Table, listed
 from report.pages.parts import PackageData
-from report.project.read.study_years import Distance, StudyYears, YearsOfArray
-from report.project.workbook import SECTION
+from report.project.read.study_years import Distance, YearsOfArray
 from report.text.error_text import general
 from report.text.names import named
 from report.text.unit_format import UnitFormat
@@ -19,14 +18,12 @@ from report.text.units import number
 
 def study_years(package: PackageData) -> Iterator[Mapping[str, object]]:
     """Yield the study of years with its file, and the arrays of both; nothing without one."""
-    sheet = package.assessment.sheet
-    label = SECTION["options"].entry("study_years").heading
     # Ids are the same in any case, as in the workbook.
     by_id = {array.id.casefold(): array for array in package.assessment.arrays}
-    for document in sheet.documents:
-        if document.label != label:
+    for document in package.assessment.source.documents:
+        study = document.years
+        if study is None:
             continue
-        study = StudyYears.model_validate_json(sheet.book.files[document.sha256])
         hazard = study.hazard
         shared = [
             (by_id[array_years.array.casefold()], array_years)

@@ -24,7 +24,7 @@ from pydantic import BaseModel, ConfigDict, StringConstraints
 from report.motions.components import RecordFile
 from report.motions.files import BAR, MOST_RECORDS
 from report.motions.prepare import Shaking
-from report.project.read.workbook_data import Sheet
+from report.project.read.workbook_data import Sheet, Source
 from report.provenance.release import version
 from report.typeset.finish import Attached
 from solver.errors import InputError
@@ -151,14 +151,14 @@ class SourceFile:
         )
 
 
-def fingerprint(sheet: Sheet, shaking: Shaking) -> str:
+def fingerprint(source: Source, shaking: Shaking) -> str:
     """Return the hash of workbook, records, documents and version at the foot of every sheet."""
     # Order counts: records that are exchanged give other runs, with the same hashes.
     lines = [
         version(),
-        sheet.sha256,
+        source.sha256,
         *shaking.hashes,
-        *(f"{document.label} {document.sha256}" for document in sheet.documents),
+        *(f"{document.label} {document.sha256}" for document in source.documents),
     ]
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:SHORT]
 

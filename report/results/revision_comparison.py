@@ -191,7 +191,7 @@ def _input(title: str, before: str, current: str, cell: str) -> Change:
 def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping[Entry, str]:
     """Return the cell of each field of a row; empty for one that is not on the sheet."""
     # What a confirmation covers is filled in by `report`: it is no input of an engineer.
-    addresses = assessment.sheet.addresses
+    addresses = assessment.source.addresses
     return {
         entry: addresses.get(Place(section.key, index, entry.name), "")
         for entry in section.entries

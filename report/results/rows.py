@@ -43,15 +43,15 @@ from solver.rules.provisions import AnalysisValue
 
 def results(assessment: Assessment, evidence: Evidence) -> model.Results:
     """Return an assessment and its evidence as one document."""
-    sheet, shaking, project = assessment.sheet, assessment.shaking, assessment.project
+    source, shaking, project = assessment.source, assessment.shaking, assessment.project
     slow = assessment.low_velocity
     pairs = zip(shaking.motions, shaking.prepared, strict=True)
     return model.Results(
         schema_version=model.SCHEMA_VERSION,
         roofslip_version=version(),
-        workbook=model.WorkbookResult(name=sheet.path.name, sha256=sheet.sha256),
+        workbook=model.WorkbookResult(name=source.path.name, sha256=source.sha256),
         records=tuple(map(_record, shaking.records)),
-        documents=tuple(map(_document, sheet.documents)),
+        documents=tuple(map(_document, source.documents)),
         motions=tuple(_motion(motion, prepared) for motion, prepared in pairs),
         input=project,
         s_ds_g=project.site.s_ds,
@@ -62,7 +62,7 @@ def results(assessment: Assessment, evidence: Evidence) -> model.Results:
         warnings=tuple(
             sentence(check, project.us_first) for check in assessment.open if check.id == "runs"
         ),
-        findings=tuple(finding_results(findings(sheet, shaking), sheet.addresses)),
+        findings=tuple(finding_results(findings(source, project, shaking), source.addresses)),
         checks=tuple(check_results(assessment)),
         arrays=tuple(_array(assessment, item) for item in assessment.arrays),
         clearances=tuple(map(_clearance, assessment.clearances)),
@@ -84,7 +84,7 @@ def compared(assessment: Assessment) -> model.Compared:
     return model.Compared(
         roofslip_version=version(),
         records=tuple(map(_record, assessment.shaking.records)),
-        documents=tuple(map(_document, assessment.sheet.documents)),
+        documents=tuple(map(_document, assessment.source.documents)),
         input=assessment.project,
         rule_set=assessment.rules.name,
         verdict=assessment.verdict,
@@ -155,7 +155,7 @@ def finding_results(
 
 def check_results(assessment: Assessment) -> Iterator[model.CheckResult]:
     """Yield the checks of a project, in their order."""
-    us_first, addresses = assessment.project.us_first, assessment.sheet.addresses
+    us_first, addresses = assessment.project.us_first, assessment.source.addresses
     for check in assessment.checks:
         found_text, limit_text = texts(check, us_first)
         amounts = [x for x in (check.found, check.limit) if isinstance(x, Amount)]

@@ -100,7 +100,7 @@ def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
         ("Date", str(project.date)),
         ("Prepared by", project.prepared_by),
         ("Checked by", project.checked_by or "not yet checked"),
-        ("Hash", fingerprint(assessment.sheet, assessment.shaking)),
+        ("Hash", fingerprint(assessment.source, assessment.shaking)),
         ("Rule set", assessment.rules.name),
         ("S_DS, SDC", f"{site.s_ds:.3f} g, {site.sdc_text}"),
     ]

@@ -42,7 +42,7 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     absent |= set() if assessment.neighbors else {"Neighbors"}
     absent |= set() if assessment.has_motions else OF_MOTIONS
     project = assessment.project.project
-    of = f"revision {project.revision}, hash {fingerprint(assessment.sheet, assessment.shaking)}"
+    of = f"revision {project.revision}, hash {fingerprint(assessment.source, assessment.shaking)}"
     title = f"{project.number} {project.name}, {of}"
     with text_workbook(buffer, project.date, title) as workbook:
         head = f"{shortened(project.number, 24)}   {shortened(project.name, 60)}   {of}"

@@ -40,6 +40,7 @@ class Document:
     path: str  # from the folder of the workbook
     size: int  # [bytes]
     sha256: str
+    years: StudyYears | None = None  # of a study
 
 
 def read_documents(book: OpenBook, inputs: Inputs) -> tuple[tuple[Document, ...], list[Finding]]:
@@ -63,9 +64,8 @@ def _document(book: OpenBook, entry: Entry, name: str, bytes_left: int) -> Docum
     example = str(entry.example)
     file = path_beside(book.path.parent, name, MAX_DOCUMENTS, example)
     content = read_file(file, MAX_DOCUMENTS, f"'{name}'", too_large="shrink it")
-    if entry.name == "study_years":
-        _check_years(name, content)
-    elif not content.startswith(b"%PDF-"):
+    years = _years(name, content) if entry.name == "study_years" else None
+    if years is None and not content.startswith(b"%PDF-"):
         raise InputError(f"'{name}' is no PDF; attach it as a PDF")
     if len(content) > bytes_left:
         limit = f"{MAX_DOCUMENTS / 1e6:.0f} MB"
@@ -73,12 +73,12 @@ def _document(book: OpenBook, entry: Entry, name: str, bytes_left: int) -> Docum
     path = posixpath.normpath(name.replace("\\", "/"))
     sha256 = hashlib.sha256(content).hexdigest()
     book.files[sha256] = content
-    return Document(label=entry.heading, path=path, size=len(content), sha256=sha256)
+    return Document(label=entry.heading, path=path, size=len(content), sha256=sha256, years=years)
 
 
-def _check_years(name: str, content: bytes) -> None:
+def _years(name: str, content: bytes) -> StudyYears:
     try:
-        StudyYears.model_validate_json(content)
+        return StudyYears.model_validate_json(content)
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"])) or "its text"

@@ -44,6 +44,20 @@ class EchoRow:
 IGNORED = "not an input, ignored"
 """How the echo shows a cell under a heading that is not known."""
 
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Source:
+    """What a package says of the workbook that a project was read from."""
+
+    path: Path
+    sha256: str  # of the workbook
+    addresses: Mapping[Place, str]
+    documents: tuple[Document, ...]  # beside it, that the package attaches
+    echo: tuple[EchoRow, ...]  # every field, sheet by sheet and row by row
+    unseen: tuple[Unseen, ...]
+    warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
+
+
 Whole = TypeVar("Whole", bound=Frozen)
 
 
@@ -76,6 +90,19 @@ class SheetOf(Generic[Whole]):
             rows = tuple(part.model.model_construct(**row) for row in self.inputs[part.key])
             parts[part.key] = rows if part.is_table else rows[0]
         return self.whole.model_validate(parts)
+
+    @property
+    def source(self) -> Source:
+        """What a package says of the workbook."""
+        return Source(
+            path=self.path,
+            sha256=self.sha256,
+            addresses=self.addresses,
+            documents=self.documents,
+            echo=self.echo,
+            unseen=self.unseen,
+            warnings=self.warnings,
+        )
 
     @cached_property
     def units(self) -> Mapping[str, str]:

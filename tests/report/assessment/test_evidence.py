@@ -11,7 +11,6 @@ from fixtures.marks import by_day
 from fixtures.pages import page_of
 from fixtures.single_runs import prd_m
 from fixtures.workbooks import cell_address, make, problems, read_workbook, type_into
-from report.assessment.assess import assess
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
 from report.assessment.support.building_variations import building_variations
@@ -259,7 +258,7 @@ def with_inputs(*, slopes=(), **sections):
     for k, slope in enumerate(slopes):
         arrays[k] = arrays[k].model_copy(update={"slope_value": slope})
     project = given.project.changed(arrays=tuple(arrays), **sections)
-    return assess(given.sheet, given.shaking, project=project)
+    return projects.assessed_anew(given, project)
 
 
 def said(given):

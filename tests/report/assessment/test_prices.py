@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from fixtures import altered_projects, assessments
+from fixtures import altered_projects, assessments, projects
 from fixtures.marks import nightly
 from fixtures.pages import page_of
 from report.assessment.assess import Extent, assess
@@ -40,7 +40,7 @@ def test_a_price_is_what_the_project_comes_to_with_that_input(name):
     done = altered_projects.assessed(name)
     open_ids = {check.id for check in done.checks if check.is_open}
     for id, other in others(done.project).items():
-        after = assess(done.sheet, done.shaking, project=other)
+        after = projects.assessed_anew(done, other)
         text = done.otherwise.get(id, "")
         if not text:
             assert id not in open_ids or designs(after) == designs(done)
@@ -74,9 +74,9 @@ def test_a_record_that_drifts_is_priced_by_the_project_without_it():
     first, *rest = base.shaking.prepared
     far = {name: replace(m, final_displacement_m=0.2) for name, m in first.measures.items()}
     drifting = replace(base.shaking, prepared=(replace(first, measures=far), *rest))
-    done = assess(base.sheet, drifting)
+    done = assess(altered_projects.read_shipped("example"), drifting)
     fewer = replace(base.shaking, motions=base.shaking.motions[1:], prepared=tuple(rest))
-    without = assess(base.sheet, fewer, project=base.project, extent=Extent.AS_GIVEN)
+    without = assess(altered_projects.read_shipped("example"), fewer, extent=Extent.AS_GIVEN)
     assert designs(without) != designs(done)
     largest_m = max(item.permitted_m for item in without.arrays)
     text = done.otherwise["drift"]

@@ -10,7 +10,7 @@ from fixtures import altered_projects, assessments, project_parts, projects
 from fixtures.marks import nightly
 from fixtures.pages import page_of
 from fixtures.single_runs import prd_m, slid
-from report.assessment.assess import assess, entered
+from report.assessment.assess import entered
 from report.assessment.causes import came_to
 from report.assessment.design.friction import with_mu
 from report.assessment.design.verdict import Verdict
@@ -42,7 +42,7 @@ def fresh(done, *changes):
     """The project with changes, assessed without anything of the one before."""
     data = reduce(lambda data, change: change(data), changes, done.project)
     data = outdated(data, done.shaking.hashes)
-    return assess(done.sheet, done.shaking, project=data)
+    return projects.assessed_anew(done, data)
 
 
 def failed(done):

@@ -4,7 +4,6 @@ import io
 import json
 import math
 import re
-from dataclasses import replace
 
 import openpyxl
 import pytest
@@ -12,13 +11,11 @@ import pytest
 from fixtures import assessments, projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
-from fixtures.workbooks import make
 from report.assessment.checks.sentence import texts as check_texts
 from report.assessment.design.clearances import beside
 from report.assessment.support.spectra import spectra
 from report.drawing.plan_layers import plan_drawing
 from report.pages.terminal import summary
-from report.project.read.archive import open_book
 from report.results.results_json import results_json
 from report.results.xlsx import results_xlsx
 from report.text.units import Quantity
@@ -51,12 +48,6 @@ def pair(value_si, quantity, way, us_first):
     return f"{us} ({si})" if us_first else f"{si} ({us})"
 
 
-def opened(done, folder):
-    """An assessment with a workbook, which a stand-in has not."""
-    book = done.sheet.book or open_book(make(folder))
-    return replace(done, sheet=replace(done.sheet, book=book))
-
-
 def failing():
     """The stand-in with clearances, slack, strength and a capacity that are not enough."""
     arrays = [
@@ -77,8 +68,8 @@ CASES = {
 
 
 @pytest.fixture(scope="module", params=by_day(CASES, 1))
-def done(request, tmp_path_factory):
-    return opened(CASES[request.param](), tmp_path_factory.mktemp("book"))
+def done(request):
+    return CASES[request.param]()
 
 
 def amounts(done):
@@ -169,8 +160,8 @@ def test_a_required_value_of_results_xlsx_shows_what_the_package_shows_and_its_r
             assert row["D/C"] == float(number(gap.demand_capacity, 2, "up"))
 
 
-def test_what_is_not_enough_reads_as_less_in_both_units_in_every_output(tmp_path):
-    done = opened(failing(), tmp_path)
+def test_what_is_not_enough_reads_as_less_in_both_units_in_every_output():
+    done = failing()
     said = "\n".join(texts(done).values())
     (short, *_) = done.clearances
     had = pair(short.clearance.provided_m, Quantity.SIZE, "down", us_first=True)

@@ -8,13 +8,12 @@ from itertools import pairwise
 
 import pytest
 
-from fixtures import assessments, commands, packages, pages
+from fixtures import assessments, commands, packages, pages, projects
 from fixtures.dxf import Sketch
 from fixtures.libreoffice import recalculated
 from fixtures.paths import ROOT
 from fixtures.project_parts import FT, NO_SIDES, clearance
 from fixtures.workbooks import type_into, without_motions
-from report.assessment.assess import assess
 from report.assessment.checks.sentence import sentence
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
@@ -40,7 +39,7 @@ def with_arrays(**changes):
     given = assessments.without_motions()
     first, *others = given.project.arrays
     arrays = (first.model_copy(update=changes), *others)
-    return assess(given.sheet, given.shaking, project=given.project.changed(arrays=arrays))
+    return projects.assessed_anew(given, given.project.changed(arrays=arrays))
 
 
 def test_all_take_the_prescriptive_displacement_and_what_is_not_permitted_is_ng():

@@ -153,7 +153,7 @@ def row(cell, label, typed="", value="", unit="", unseen=""):
 def echo(*rows, changed=()):
     """The page of an echo, where cells at some addresses changed."""
     done = assessments.package().assessment
-    done = replace(done, sheet=replace(done.sheet, echo=rows))
+    done = replace(done, source=replace(done.source, echo=rows))
     items = (
         Change(kind=ChangeKind.INPUT, title="", before="", now="", cell=cell) for cell in changed
     )

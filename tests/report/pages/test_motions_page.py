@@ -1,6 +1,5 @@
 """Limits on the motions, margins, and the years of a study beside the design displacement."""
 
-import hashlib
 import json
 import math
 import re
@@ -220,14 +219,11 @@ YEARS = {
 def with_study(years):
     """The stand-in's package with a study of years beside its workbook."""
     given = assessments.package().assessment
-    content = json.dumps(years).encode()
-    sha256 = hashlib.sha256(content).hexdigest()
     document = Document(
-        label="Service-life study", path="years.json", size=len(content), sha256=sha256
-    )
-    book = SimpleNamespace(files={sha256: content})
-    sheet = replace(given.sheet, documents=(document,), book=book)
-    return package_data(replace(given, sheet=sheet))
+        label="Service-life study", path="years.json", size=1000, sha256="ab" * 32,
+        years=StudyYears.model_validate(years),
+    )  # fmt: skip
+    return package_data(replace(given, source=replace(given.source, documents=(document,))))
 
 
 def test_the_comparison_has_the_years_of_its_own_arrays():
@@ -269,7 +265,8 @@ def test_the_file_is_attached_or_refused_at_its_cell(tmp_path):
     path.write_text(json.dumps(YEARS))
     (document,), faults = read_documents(book, inputs)
     assert not faults
-    assert StudyYears.model_validate_json(book.files[document.sha256]).arrays[0].mu == 0.5
+    assert document.years.arrays[0].mu == 0.5
+    assert json.loads(book.files[document.sha256]) == YEARS
     path.write_text(json.dumps(YEARS | {"note": "code value"}))
     _, (fault,) = read_documents(book, inputs)
     assert "is no years.json of a study (note: " in fault.text

@@ -198,7 +198,7 @@ def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_
     (found,) = findings(book.sheet, book.shaking)
     assert found.reason == "Kept from the client's view"
     sheet, _, _ = cell_of("Options/1/Value")
-    done = replace(assessments.package().assessment, sheet=book.sheet)
+    done = replace(assessments.package().assessment, source=book.sheet.source)
     tables = [table for table in page_of(done, "echo").tables if table.title == sheet]
     assert "18 (hidden sheet)" in {cell for table in tables for row in table.cells for cell in row}
     assert not any(row.unseen for row in book.sheet.echo if row.sheet != sheet)

@@ -113,7 +113,7 @@ def test_pages_are_legible_on_the_paper_of_the_units_and_data_do_not_print(done,
 @pytest.mark.quick
 def test_every_sheet_says_what_it_is_of_and_shows_a_verdict_that_changes_to_ng(done, book):
     project = done.project.project
-    of = f"revision {project.revision}, hash {fingerprint(done.sheet, done.shaking)}"
+    of = f"revision {project.revision}, hash {fingerprint(done.source, done.shaking)}"
     assert book.properties.title == f"{project.number} {project.name}, {of}"
     for sheet in book:
         assert sheet.oddHeader.left.text.startswith(f"{project.number}   {project.name}   {of}")
@@ -257,7 +257,7 @@ def test_every_printed_page_names_its_sheet(before, tmp_path):
     assert {name for name, count in counts.items() if not count} == DATA & set(names)
     assert len(texts) == sum(counts.values())
     project = before.project.project
-    hash_ = fingerprint(before.sheet, before.shaking)
+    hash_ = fingerprint(before.source, before.shaking)
     for said in (project.number, project.name, f"revision {project.revision}", hash_):
         assert all(said in text for text in texts), said
 

@@ -172,7 +172,7 @@ def test_a_record_with_another_hash_the_rule_set_and_the_version_are_found(asses
 
 def test_a_document_with_another_hash_is_found_unless_the_former_file_does_not_say(assessment):
     letter = Document(label="Letter of review", path="r.pdf", size=9, sha256="ab" * 32)
-    now = replace(assessment, sheet=replace(assessment.sheet, documents=(letter,)))
+    now = replace(assessment, source=replace(assessment.source, documents=(letter,)))
     document = json.loads(results_json(now, assessments.evidence(now)))
     assert document["documents"] == [asdict(letter)]
     assert not changes(former(document), now).items

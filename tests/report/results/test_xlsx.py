@@ -243,7 +243,7 @@ def test_the_summary_has_every_check_that_is_open_and_no_kind_twice(usual):
     ratios = [row[4] for row in governing]
     assert ratios == sorted(ratios, reverse=True)
     head = {row[0]: row[1] for row in rows if row[1]}
-    assert head["Hash"] == fingerprint(assessment.sheet, assessment.shaking)
+    assert head["Hash"] == fingerprint(assessment.source, assessment.shaking)
     assert head["Project number"] == assessment.project.project.number
 
 

@@ -97,7 +97,7 @@ def test_alike_arrays_are_one_row_and_what_is_joined_in_a_cause_is_listed():
     given = open_project(ROOT / "projects" / "campus" / "input.xlsx")
     data = given.sheet.project
     gaps = tuple(row.model_copy(update={"provided_m": 0.15}) for row in data.clearances)
-    done = assess(given.sheet, given.shaking, project=data.model_copy(update={"clearances": gaps}))
+    done = assess(given.sheet.with_(clearances=gaps), given.shaking)
     found = answer(done, is_provisional=False)
     names = [row[0]["ids"] for row in found["arrays"]["rows"]]
     assert sorted(name for ids in names for name in ids) == sorted(
