@@ -27,8 +27,7 @@ from report.cli.commands.installation import VARIABLE
 from report.cli.lazy_group import LazyGroup
 from report.cli.main import main
 from report.project.workbook import SECTIONS
-from report.project.workbook.entries import Entry
-from report.project.workbook.sections import rows_of
+from report.project.workbook.entries import Entry, rows_of
 from report.provenance.known_errors import known_errors
 from report.results.results_schema import schema
 from report.text.grouping import grouped_by

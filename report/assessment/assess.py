@@ -12,14 +12,13 @@ from dataclasses import replace
 from enum import IntEnum
 from typing import Any
 
-from report.assessment.assessment import Assessment
+from report.assessment.assessment import NOT_BY_VELOCITY, Assessment, low_velocity
+from report.assessment.checks.motion_checks import shaking_acceptance
 from report.assessment.design.arrays import assess_array, marked
 from report.assessment.design.clearances import by_id, check_clearance, marked_gap
 from report.assessment.design.friction import SHIFT, with_friction, with_low_velocity
 from report.assessment.design.linked_blocks import assess_linked
 from report.assessment.design.rule_set import as_adopted, rule_set_of
-from report.assessment.low_velocity import NOT_BY_VELOCITY, low_velocity
-from report.assessment.motion_acceptance import shaking_acceptance
 from report.assessment.prices import prices
 from report.motions.history import targets
 from report.motions.prepare import Shaking
@@ -27,7 +26,7 @@ from report.project.check.covered import outdated
 from report.project.check.faults import faults
 from report.project.model import ProjectInput
 from report.project.model.finding import Finding
-from report.project.read.workbook_data import Sheet, Source
+from report.project.read.workbook_data import Sheet, WorkbookSource
 from report.project.workbook import SECTIONS
 from report.runs import Runs
 from solver.records.acceptance import Acceptance
@@ -60,7 +59,7 @@ def assess(
 
 def _assess(
     data: ProjectInput,
-    source: Source,
+    source: WorkbookSource,
     shaking: Shaking,
     runs: Runs,
     acceptance: Acceptance | None,

@@ -10,25 +10,28 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from report.assessment.checks.alike import alike
 from report.assessment.checks.check import Check, verdict_of
 from report.assessment.checks.every import every
 from report.assessment.checks.rule_limits import against_analysis
+from report.assessment.checks.sentence import alike
 from report.assessment.design.arrays import ArrayAssessment, Displacement
-from report.assessment.design.clearances import ClearanceCheck, by_id, governing_array
-from report.assessment.design.gaps import ComparedGap
+from report.assessment.design.clearances import (
+    ClearanceCheck,
+    by_id,
+    governing_array,
+    with_displacements,
+)
 from report.assessment.design.linked_blocks import LinkedArray
 from report.assessment.design.rule_set import mark_of
-from report.assessment.design.separation import largest_separation_m, separation_m
+from report.assessment.design.separation import ComparedGap, largest_separation_m, separation_m
 from report.assessment.design.verdict import Verdict, severity
-from report.assessment.low_velocity import NOT_BY_VELOCITY, LowVelocityAssessment
 from report.assessment.plan.neighbors import NearbyKind, PlanNeighbor, plan_pairs, reaches_of
 from report.motions.history import Targets
 from report.motions.prepare import Shaking
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.roof import RoofObject
-from report.project.read.workbook_data import Source
+from report.project.read.workbook_data import WorkbookSource
 from report.runs import Runs, scene_key
 from report.text.grouping import grouped_by
 from report.text.units import nan_is_worst
@@ -36,12 +39,42 @@ from solver.records.acceptance import Acceptance
 from solver.rules.provisions import RuleSet
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LowVelocityAssessment:
+    """The arrays whose friction depends on velocity, with the low-velocity coefficient alone."""
+
+    arrays: tuple[ArrayAssessment, ...]  # empty where no friction depends on velocity
+    # the clearances of these arrays, by their number in the workbook, from 1
+    clearances: Mapping[int, ClearanceCheck]
+
+    def of(self, array_id: str) -> ArrayAssessment | None:
+        """Return an array; None where its friction does not depend on velocity."""
+        return next((item for item in self.arrays if item.id == array_id), None)
+
+
+NOT_BY_VELOCITY = LowVelocityAssessment(arrays=(), clearances={})
+
+
+def low_velocity(done: Assessment, slow: Assessment) -> LowVelocityAssessment:
+    """Return what an assessment of `with_low_velocity` has of the arrays that it changes."""
+    ids = {array.id for array in done.project.arrays if array.friction.is_by_velocity}
+    return LowVelocityAssessment(
+        arrays=tuple(item for item in slow.arrays if item.id in ids),
+        # Arrays stay unlike that are so as given.
+        clearances={
+            count: with_displacements(done, slow.displacements, gap)
+            for count, gap in enumerate(done.clearances, start=1)
+            if not ids.isdisjoint(gap.between)
+        },
+    )
+
+
 @dataclass(frozen=True, kw_only=True)
 class Assessment:
     """What was assessed, and what came of it."""
 
     project: ProjectInput  # as assessed: that of the workbook, or a changed one
-    source: Source  # the workbook, of which cells and files are printed
+    source: WorkbookSource  # the workbook, of which cells and files are printed
     shaking: Shaking  # the motions at the roof
     runs: Runs = field(compare=False, repr=False)  # of the arrays, and of others that were tried
     rules: RuleSet
@@ -180,6 +213,6 @@ def _separation_of_pair_m(done: Assessment, near: PlanNeighbor) -> float:
     governing = governing_array(displacements, near.between)
     rows: dict[str, Array | RoofObject] = {array.id: array for array in data.arrays}
     rows |= {item.id: item for item in data.objects}
-    other = None if near.kind is NearbyKind.BARE_EDGE else rows[near.other]
+    across = None if near.kind is NearbyKind.BARE_EDGE else rows[near.other]
     array = by_id(done.arrays, near.array).array
-    return separation_m(data, done.rules, displacements[governing].permitted_m, array, other)
+    return separation_m(data, done.rules, displacements[governing].permitted_m, array, across)

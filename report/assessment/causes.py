@@ -8,9 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.alike import alike
 from report.assessment.checks.check import MOTIONS_ID, Check, by_ratio
-from report.assessment.checks.sentence import words
+from report.assessment.checks.sentence import alike, words
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.verdict import Verdict
 from report.text.counts import numbered
@@ -55,25 +54,25 @@ def came_to(done: Assessment) -> str:
 def named(checks: Sequence[Check]) -> Sequence[str]:
     """Return the first few checks in a few words each, and how many more there are."""
     count = len(checks) - MOST_NAMED
-    more = [numbered(count, "more check")] if count > 0 else []
-    return [*map(words, checks[:MOST_NAMED]), *more]
+    further = [numbered(count, "more check")] if count > 0 else []
+    return [*map(words, checks[:MOST_NAMED]), *further]
 
 
 def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
     """Return what gives an array its verdict, in a few words each; nothing for OK."""
     verdict = assessment.array_verdict(item)
     of_array = [check for check in assessment.checks if item.id in check.arrays]
-    found = alike(check for check in of_array if check.is_open and check.verdict is verdict)
+    checks = alike(check for check in of_array if check.is_open and check.verdict is verdict)
     # That there is no permitted displacement follows from the others.
-    ordered = sorted(found, key=lambda check: check.id == "design")
+    ordered = sorted(checks, key=lambda check: check.id == "design")
     return [words(check, item.id) for check in ordered]
 
 
 def unshown_cause(assessment: Assessment, item: ArrayAssessment) -> str:
     """Return the first cause of a verdict and the count of others; none if the D/C shows it."""
-    verdict, found = assessment.array_verdict(item), causes(assessment, item)
+    verdict, reasons = assessment.array_verdict(item), causes(assessment, item)
     is_shown = any(gap.demand_capacity > 1.0 for gap in assessment.gaps_of(item.id))
-    if not found or (verdict is Verdict.NG and is_shown):
+    if not reasons or (verdict is Verdict.NG and is_shown):
         return ""
-    first, *others = found
-    return f"{first} and {numbered(len(others), 'more item')}" if others else first
+    first, *further = reasons
+    return f"{first} and {numbered(len(further), 'more item')}" if further else first

@@ -11,31 +11,34 @@ from dataclasses import replace
 from functools import partial
 from itertools import chain
 
-from report.assessment.checks.array_capacities import slack_check
+from report.assessment.checks.capacities import slack_check
 from report.assessment.checks.check import Check
 from report.assessment.checks.displacement import MORE_MOTIONS, no_design
 from report.assessment.checks.every import before_runs
 from report.assessment.checks.fire_access import of_pathways
+from report.assessment.checks.motion_checks import shaking_acceptance
 from report.assessment.checks.rule_limits import against_analysis
 from report.assessment.checks.sentence import sentence
 from report.assessment.design.routes import Route, lacking_motions, limits_of, statistic_basis
 from report.assessment.design.rule_set import rule_set_of
 from report.assessment.design.verdict import Verdict
-from report.assessment.motion_acceptance import shaking_acceptance
-from report.assessment.plan.before_runs import design_before_runs_m, pairs_before_runs
-from report.assessment.plan.neighbors import REACH_FACTOR, NearbyKind
+from report.assessment.plan.neighbors import (
+    REACH_FACTOR,
+    NearbyKind,
+    design_before_runs_m,
+    pairs_before_runs,
+)
 from report.motions.history import targets
 from report.motions.prepare import Shaking
 from report.motions.record_findings import record_findings
-from report.project.check.acknowledgments import acknowledged
 from report.project.check.covered import outdated
+from report.project.check.finding_lines import acknowledged, listed
 from report.project.check.plausible import implausible
-from report.project.check.problem_lines import listed
 from report.project.model import ProjectInput
 from report.project.model.finding import Finding, limit, note
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.unseen import warnings
-from report.project.read.workbook_data import Sheet, Source
+from report.project.read.workbook_data import Sheet, WorkbookSource
 from report.text.command_line import quoted
 from report.text.counts import numbered
 from report.text.units import Quantity, no_less, no_more, pair
@@ -46,7 +49,7 @@ from solver.records.block_spectra import together
 MOST_NAMED = 50
 
 
-def findings(source: Source, data: ProjectInput, shaking: Shaking) -> tuple[Finding, ...]:
+def findings(source: WorkbookSource, data: ProjectInput, shaking: Shaking) -> tuple[Finding, ...]:
     """Return what an engineer is asked about, with the reasons that the workbook gives."""
     hidden = [*source.unseen, *chain.from_iterable(file.unseen for file in shaking.records)]
     of_input = [*implausible(data), *record_findings(data, shaking)]

@@ -1,5 +1,7 @@
 """What a project comes to where a condition is not met: each is taken out of its input.
 
+`Without peer review: NG, clearance A1 to A2 (D/C 1.20); Δ up to 30.0 in (762 mm).`
+
 Runs nothing: `report.assessment.assess` assesses the inputs, with the runs that it has. Read
 `prices`.
 """
@@ -34,16 +36,16 @@ def prices(
     review and a letter of acceptance on file, and of friction by velocity, too. `reassess` is
     given another input, and the motions that it is without.
     """
-    found = dict[str, str]()
+    sentences = dict[str, str]()
     asked_for = {check.id for check in done.checks if check.is_open} | {
         _REVIEW,
         _RULE_SET,
         VELOCITY_ROW,
     }
-    for ids, other, motions, how in _others(done):
-        if (motions or other is not done.project) and not asked_for.isdisjoint(ids):
-            found |= dict.fromkeys(ids, _price(done, reassess(done, other, motions), how))
-    return {id: text for id, text in found.items() if text}
+    for ids, changed, motions, how in _others(done):
+        if (motions or changed is not done.project) and not asked_for.isdisjoint(ids):
+            sentences |= dict.fromkeys(ids, _price(done, reassess(done, changed, motions), how))
+    return {id: text for id, text in sentences.items() if text}
 
 
 def _others(
@@ -60,8 +62,8 @@ def _others(
     yield LOWERING, as_adopted(data), (), "without overrides and departures"
     if data.is_peer_reviewed:
         options = data.options.model_copy(update={"peer_reviewed": False})
-        other = data.model_copy(update={"options": options})
-        yield (_REVIEW,), other, (), "without peer review"
+        changed = data.model_copy(update={"options": options})
+        yield (_REVIEW,), changed, (), "without peer review"
     slow = [array for array in data.arrays if array.friction.is_by_velocity]
     if slow and done.has_motions:
         mus = mus_words([at_low_velocity(array) for array in slow])
@@ -72,24 +74,25 @@ def _others(
         yield ("drift",), data, drifting, f"without {ranged(sorted(drifting))}"
 
 
-def _price(done: Assessment, other: Assessment, how: str) -> str:
+def _price(done: Assessment, changed: Assessment, how: str) -> str:
     """Return what an input comes to as a sentence; none where it changes nothing."""
     # What a row of linked blocks does is not run again.
-    linked = [replace(row, design=by_id(other.arrays, row.design.id)) for row in done.linked]
-    other = replace(other, linked=tuple(linked))
+    linked = [replace(row, design=by_id(changed.arrays, row.design.id)) for row in done.linked]
+    changed = replace(changed, linked=tuple(linked))
 
-    def came(found: Assessment) -> Sequence[object]:
+    def came(assessed: Assessment) -> Sequence[object]:
         return [
-            (item.permitted_m, found.array_verdict(item) is Verdict.NG) for item in found.arrays
+            (item.permitted_m, assessed.array_verdict(item) is Verdict.NG)
+            for item in assessed.arrays
         ]
 
-    if repr(came(done)) == repr(came(other)):
+    if repr(came(done)) == repr(came(changed)):
         return ""
     us_first = done.project.us_first
-    largest_m = max((item.permitted_m for item in other.arrays), key=nan_is_worst)
+    largest_m = max((item.permitted_m for item in changed.arrays), key=nan_is_worst)
     delta = f"; Δ up to {pair(largest_m, Quantity.DISPLACEMENT, us_first, no_less)}"
-    text = came_to(other)
+    text = came_to(changed)
     # Which conditions are left, such as on less friction, is not looked at again.
-    if other.verdict.is_permitted:
-        text = ", ".join(filter(None, ("not NG", governing_words(other))))
+    if changed.verdict.is_permitted:
+        text = ", ".join(filter(None, ("not NG", governing_words(changed))))
     return f"{capitalized(how)}: {text}{'' if math.isnan(largest_m) else delta}."

@@ -10,8 +10,8 @@ from report.cli.input_errors import input_errors
 from report.cli.terminal import plain, say_next
 from report.drawing_read.ballast import Load, center_of_gravity, loads, read_map
 from report.drawing_read.fill import fill_ballast as write_ballast
+from report.project.check.finding_lines import listed
 from report.project.check.plan_shapes import shapes_of, us_first
-from report.project.check.problem_lines import listed
 from report.project.model.input_rows import InputRow
 from report.project.read.read import read_book
 from report.project.write.filled import changing
@@ -33,8 +33,10 @@ def fill_ballast(
         arrays = {row["id"]: row for row in sheet.inputs["arrays"] if row.get("id") in shapes}
         blocks, outside = loads(rows, {name: shapes[name] for name in arrays})
         if not blocks:
-            what = "no ballast block of the map is inside an array on the plan"
-            raise InputError(f"{what}; give --units of the map, or x and y from the plan's origin")
+            problem = "no ballast block of the map is inside an array on the plan"
+            raise InputError(
+                f"{problem}; give --units of the map, or x and y from the plan's origin"
+            )
         weights = {name: load.blocks * block_n for name, load in blocks.items()}
         cell_values: dict[str, float | None] = {**weights}
         if replace:  # what is not on the map any more goes only where that is asked for
@@ -47,9 +49,9 @@ def fill_ballast(
         else:
             text = "no blocks"
             if row.get("ballast_n") is not None:
-                given = pair(row["ballast_n"], Quantity.WEIGHT, is_us)
+                weight_text = pair(row["ballast_n"], Quantity.WEIGHT, is_us)
                 fate = "are taken out" if replace else "stay without --replace"
-                text += f"; the {given} given {fate}"
+                text += f"; the {weight_text} given {fate}"
         click.echo(plain(f"{name}: {text}"))
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
@@ -65,9 +67,9 @@ def _balance(row: InputRow, load: Load, ballast_n: float, is_us: bool) -> str:
     center = center_of_gravity(load, ballast_n, modules_n)
     offset = (center[0] - load.centroid[0], center[1] - load.centroid[1])
     x, y, offset_x, offset_y = (pair(value, Quantity.PLAN, is_us) for value in (*center, *offset))
-    what = f"ballast and {modules} modules" if modules_n else "the ballast alone"
+    content = f"ballast and {modules} modules" if modules_n else "the ballast alone"
     return (
         f"{numbered(load.blocks, 'block')}, {pair(ballast_n, Quantity.WEIGHT, is_us)}; center of"
-        f" gravity of {what} at x {x}, y {y}; from the centroid of the outline {offset_x} in x,"
+        f" gravity of {content} at x {x}, y {y}; from the centroid of the outline {offset_x} in x,"
         f" {offset_y} in y"
     )

@@ -49,12 +49,12 @@ def watch_project(source: Path, out: Path | None, interrupts: Sequence[int]) -> 
     raise KeyboardInterrupt
 
 
-def report_again(workbook: Path, out: Path | None, former: bytes) -> bytes:
+def report_again(workbook: Path, out: Path | None, earlier: bytes) -> bytes:
     """Report, print what changed since the former results.json, and return the new one."""
     made = package(workbook, out)
     show(made)
-    if former:
-        items = changes(former_from(former, made.folder), made.assessment).items
+    if earlier:
+        items = changes(former_from(earlier, made.folder), made.assessment).items
         say(f"changes since the last report: {len(items)}")
         for item in items[:MAX_CHANGES]:
             say(f"  {item.title} {item.cell}".rstrip() + f": {item.before} -> {item.now}")

@@ -19,8 +19,7 @@ from typing import Any, NoReturn
 
 import click
 
-from report.cli.exit_codes import INPUT_ERROR
-from report.cli.terminal import plain, print_json
+from report.cli.terminal import INPUT_ERROR, plain, print_json
 from report.results.publish import OUTPUTS
 from report.text.command_line import as_typed
 from report.text.counts import numbered
@@ -98,7 +97,7 @@ def document(source: Path, problems: Sequence[Problem] = ()) -> dict[str, Any]:
 def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     """Print the problems of an input, one per line; those of several cells once."""
     # Imported for an error alone: `motion` and `slide` need no models of a workbook.
-    from report.project.check.problem_lines import grouped, line_of
+    from report.project.check.finding_lines import grouped, line_of
 
     click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
     for equal_problems in grouped(problems):

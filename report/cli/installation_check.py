@@ -29,11 +29,11 @@ def check_installation() -> None:
     remedies = []
     for name, find, remedy in _checks():
         try:
-            found = find() or "missing"
+            result = find() or "missing"
         except Exception as error:  # whatever is wrong here is the finding
-            found = f"fails: {'; '.join(str(error).splitlines()[:3]) or repr(error)}"
-        click.echo(f"{name:15}  {found}")
-        if found.startswith(("missing", "fails")):
+            result = f"fails: {'; '.join(str(error).splitlines()[:3]) or repr(error)}"
+        click.echo(f"{name:15}  {result}")
+        if result.startswith(("missing", "fails")):
             remedies.append(f"{name}: {remedy}")
     if remedies:
         raise click.ClickException("\n".join(remedies))

@@ -1,6 +1,6 @@
 """A group of commands that imports the module of a command when it is asked for.
 
-    main.add_section("Package", "report.cli.commands.report:report")
+    main.add_section("Package", "report.cli.commands.project:report")
 
 A module of `report.cli.commands` has the options of a command, and imports what does its work only
 where it runs: help and completion import no more than click.
@@ -24,7 +24,7 @@ class LazyGroup(click.Group):
         self._modules: dict[str, str] = {}
 
     def add_section(self, title: str, *commands: str) -> None:
-        """Add commands under a title, each as `report.cli.commands.sign:sign`."""
+        """Add commands under a title, each as `report.cli.commands.trust:sign`."""
         for command in commands:
             module, _, function = command.partition(":")
             name = function.replace("_", "-")

@@ -1,6 +1,6 @@
 """The command line: every command by the module of its options, each loaded when it is asked for.
 
-Only the modules of `report.cli` print and catch. Read `report.cli.commands.report` for the way
+Only the modules of `report.cli` print and catch. Read `report.cli.one_package` for the way
 from workbook to package.
 """
 
@@ -15,7 +15,6 @@ from typing import Any
 import click
 
 from report.cli.commands.installation import VARIABLE
-from report.cli.exit_codes import INPUT_ERROR, INTERRUPTED
 from report.cli.lazy_group import LazyGroup
 from report.cli.streams import (
     UntilClosed,
@@ -24,7 +23,7 @@ from report.cli.streams import (
     set_up_console,
     show_warnings,
 )
-from report.cli.terminal import color_choice, plain
+from report.cli.terminal import INPUT_ERROR, INTERRUPTED, color_choice, plain
 from report.libraries import stay_apart
 from report.text.command_line import called
 
@@ -109,21 +108,21 @@ def main() -> None:
 _COMMANDS = "report.cli.commands"
 main.add_section(
     "Package",
-    f"{_COMMANDS}.report:report",
-    f"{_COMMANDS}.watch:watch",
+    f"{_COMMANDS}.project:report",
+    f"{_COMMANDS}.project:watch",
     f"{_COMMANDS}.serve:serve",
-    f"{_COMMANDS}.schema:schema",
+    f"{_COMMANDS}.project:schema",
 )
 main.add_section(
-    "Sheet", f"{_COMMANDS}.new:new", f"{_COMMANDS}.check:check", f"{_COMMANDS}.plan:plan"
+    "Sheet", f"{_COMMANDS}.project:new", f"{_COMMANDS}.project:check", f"{_COMMANDS}.plan:plan"
 )
-main.add_section("Motions", f"{_COMMANDS}.motion:motion", f"{_COMMANDS}.slide:slide")
+main.add_section("Motions", f"{_COMMANDS}.motion:motion", f"{_COMMANDS}.motion:slide")
 main.add_section("Studies", f"{_COMMANDS}.study:study")
 main.add_section(
     "Trust",
-    f"{_COMMANDS}.verify:verify",
-    f"{_COMMANDS}.verify_package:verify_package",
-    f"{_COMMANDS}.sign:sign",
+    f"{_COMMANDS}.trust:verify",
+    f"{_COMMANDS}.trust:verify_package",
+    f"{_COMMANDS}.trust:sign",
 )
 main.add_section(
     "Installation",

@@ -10,8 +10,7 @@ import click
 
 from report.cli.input_errors import input_errors
 from report.project.model.choices import UnitsFirst
-from report.project.write.example import example_files
-from report.project.write.template import write_template
+from report.project.write.template import example_files, write_template
 from report.text.command_line import command
 from solver.errors import InputError
 from solver.file_checks import check_plain

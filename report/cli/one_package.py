@@ -9,10 +9,9 @@ from pathlib import Path
 import click
 
 from report.assessment.revision_changes import Changes
-from report.cli.exit_codes import NOT_OK
 from report.cli.input_errors import document, input_errors, outputs_of
 from report.cli.progress import Progress
-from report.cli.terminal import plain, print_json, say
+from report.cli.terminal import NOT_OK, plain, print_json, say
 from report.making import Made, make
 from report.pages import terminal as summaries
 from report.pages.changes import counted
@@ -88,14 +87,14 @@ def show(made: Made) -> None:
     say(f"{verdict}; {package}, {numbered(made.sheets, 'sheet')}")
 
 
-def warn_of_other_packages(new: Path) -> None:
+def warn_of_other_packages(written: Path) -> None:
     """Warn of packages beside a new one that are of another input."""
-    others = sorted(path for path in new.parent.glob("*.pdf") if path.name != new.name)
-    if others:
+    packages = sorted(path for path in written.parent.glob("*.pdf") if path.name != written.name)
+    if packages:
         # An extra, which a report imports only here: it takes most of a second.
         from report.proof.opened_package import warn_of_other_input
 
-        warn_of_other_input(new, others)
+        warn_of_other_input(written, packages)
 
 
 def _print_changes(changes: Changes) -> None:

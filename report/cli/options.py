@@ -13,7 +13,7 @@ from typing import Any
 
 import click
 
-from report.cli.exit_codes import NOT_OK
+from report.cli.terminal import NOT_OK
 from solver.suggestions import meant
 
 

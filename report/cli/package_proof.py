@@ -1,4 +1,4 @@
-"""Makes a package again from the input inside it, and compares the bytes."""
+"""Makes a package again from the input inside it and compares the bytes; signs a package."""
 
 from __future__ import annotations
 
@@ -6,24 +6,27 @@ import os
 import signal
 import sys
 import tempfile
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict, replace
+from getpass import GetPassWarning
 from pathlib import Path
 
 import click
 
-from report.cli.exit_codes import DIFFERS, NOT_COMPARED
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
-from report.cli.terminal import plain, print_json, say
+from report.cli.terminal import DIFFERS, NOT_COMPARED, plain, print_json, say
 from report.making import make
 from report.proof.opened_package import RecordsMissingError, opened, read_package, take_out
 from report.proof.package_comparison import Agreement, Proof, compared, failed
+from report.proof.signatures import signed
 from report.provenance.known_errors import touching
 from report.results.publish import OUTPUTS, STAMP, warn_if_mixed
 from report.steps import STEPS
 from solver.errors import InputError
+from solver.file_checks import check_plain, read_file
 from solver.file_writing import write_whole
 
 COMPARING = 0.1
@@ -119,3 +122,38 @@ def _print(proof: Proof, written: str) -> None:
                 "issuer of the certificate was not checked; a PDF reader does that."
             )
         )
+
+
+MAX_KEY_BYTES = 1_000_000
+
+
+def sign_package(
+    file: Path, *, p12: Path, password: str | None, time_stamp: str, out: Path | None
+) -> None:
+    """Write the signed package, under a name of its own."""
+    # The package is evidence: the signed one has a name of its own.
+    target = out or file.with_name(f"{file.stem}-signed.pdf")
+    with input_errors(file):
+        certificate = read_file(p12, MAX_KEY_BYTES, p12.name)
+        if out is None:
+            check_plain(target, file.parent)
+        password = _typed_password() if password is None else password
+        if target.exists() and target.samefile(file):
+            raise InputError("the signed package needs a name of its own; choose another --out")
+        content = signed(read_package(file), certificate, password, time_stamp)
+        write_whole(target, content)
+    click.echo(target)
+
+
+def _typed_password() -> str:
+    """Return the password that is typed; without a terminal nobody can."""
+    with warnings.catch_warnings():
+        # Without a terminal, getpass would warn and read what others can see.
+        warnings.simplefilter("error", GetPassWarning)
+        try:
+            password: str = click.prompt("Password", hide_input=True)
+        except GetPassWarning as error:
+            raise InputError(
+                "the password cannot be asked for without a terminal; set ROOFSLIP_P12_PASSWORD"
+            ) from error
+    return password

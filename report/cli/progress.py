@@ -65,8 +65,8 @@ class Progress:
         # 7 of 10 may be 0.6999.
         filled = int(_BAR * self._part() + 1e-9)
         bar = f"[{'#' * filled}{'.' * (_BAR - filled)}] " if self._shares_before else ""
-        left = _left(self._expected_s - seconds) if seconds > TIMED_SECONDS else ""
-        line = f"{bar}{seconds:4.1f} s{left}  {self._doing}"
+        remaining = _left(self._expected_s - seconds) if seconds > TIMED_SECONDS else ""
+        line = f"{bar}{seconds:4.1f} s{remaining}  {self._doing}"
         # A line that wraps could not be written over.
         _over(line[: shutil.get_terminal_size().columns - 1])
 

@@ -16,7 +16,7 @@ from report.motions.prepare import Shaking, prepare
 from report.project.check.finding_lines import in_order
 from report.project.check.finding_lines import lines as finding_lines
 from report.project.model.finding import Finding, Level, note
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTION
 from report.project.write.overwritten import formula_findings, overwritten

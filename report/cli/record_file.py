@@ -60,5 +60,5 @@ def convert_record(file: Path, out: Path, *, channel: str, factor: float, **read
 
 def _read(path: Path, reading: Mapping[str, Any]) -> MotionFile:
     """Read a file by the options of the command, in which None stands for what is not given."""
-    given = {name: value for name, value in reading.items() if value is not None}
-    return read_motion_file(path, **given)
+    options = {name: value for name, value in reading.items() if value is not None}
+    return read_motion_file(path, **options)

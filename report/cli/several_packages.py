@@ -19,7 +19,6 @@ from typing import Any, NoReturn
 
 import click
 
-from report.cli.exit_codes import INPUT_ERROR, INTERNAL_ERROR, NOT_OK
 from report.cli.input_errors import (
     SCHEMA_VERSION,
     outputs_of,
@@ -30,7 +29,7 @@ from report.cli.input_errors import (
 )
 from report.cli.one_package import report_one, warn_of_other_packages
 from report.cli.progress import Progress
-from report.cli.terminal import colored, plain, print_json, say
+from report.cli.terminal import INPUT_ERROR, INTERNAL_ERROR, NOT_OK, colored, plain, print_json, say
 from report.making import make
 from report.results.publish import check_of_workbook, output_folder
 from report.steps import STEPS, Step

@@ -59,10 +59,10 @@ def run(
             )
     if quiet:
         return
-    first, *others = headline(results)
+    first, *further = headline(results)
     # The time is no result, and not in the files to read.
     seconds = results.manifest["processor_seconds"]
-    for line in (f"{first}, {seconds:,.0f} s of processor time", *others):
+    for line in (f"{first}, {seconds:,.0f} s of processor time", *further):
         click.echo(plain(line))
     for name in files:
         click.echo(folder / name)

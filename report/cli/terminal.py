@@ -1,4 +1,4 @@
-"""What the commands print: plain lines, verdicts and levels in color, JSON."""
+"""What the commands print: plain lines, verdicts and levels in color, JSON; their exit codes."""
 
 from __future__ import annotations
 
@@ -12,6 +12,19 @@ from typing import Any
 import click
 
 from report.text.command_line import as_typed, command
+
+# Exit codes; 0 is done, whatever the verdict.
+INTERNAL_ERROR = 1
+"""The program failed (with the traceback), or checks of `verify` did."""
+DIFFERS = 1
+"""A package differs from what its own input gives."""
+INPUT_ERROR = 2
+NOT_OK = 3
+"""With --fail-on-ng: the verdict is not OK."""
+NOT_COMPARED = 4
+"""`verify-package` could not compare all of a package."""
+INTERRUPTED = 130
+"""Ended by Ctrl+C, which shells write as 128 + signal 2."""
 
 _GREEN, _RED, _YELLOW = ({"fg": color, "bold": True} for color in ("green", "red", "yellow"))
 _STYLES: Mapping[str, Mapping[str, Any]] = {

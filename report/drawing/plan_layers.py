@@ -15,8 +15,14 @@ from report.assessment.design.routes import NOT_PERMITTED
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.bare_edges import EDGES, bare_edges
 from report.assessment.support.envelopes import Outline, design_envelope, runs_envelope
-from report.assessment.support.keep_clear import keep_clear, keep_clear_m, keep_clear_mark
-from report.assessment.support.plan_gaps import PlanGap, parapet_note, plan_gaps
+from report.assessment.support.plan_gaps import (
+    PlanGap,
+    keep_clear,
+    keep_clear_m,
+    keep_clear_mark,
+    parapet_note,
+    plan_gaps,
+)
 from report.drawing.dimensions import alongside, gap_texts, lane_of
 from report.drawing.labels import along_strip
 from report.drawing.layers import Layer

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from report.assessment.assessment import Assessment
 from report.assessment.design.arrays import ArrayAssessment
-from report.assessment.support.keep_clear import keep_clear, keep_clear_m, keep_clear_mark
+from report.assessment.support.plan_gaps import keep_clear, keep_clear_m, keep_clear_mark
 from report.drawing.paper_items import width_in
 from report.drawing.sheet import PlanSize
 from report.project.model.shapes import Shape, around

@@ -16,15 +16,14 @@ from report.drawing_read.plan_as_drawn import RoofPlan
 from report.drawing_read.plan_read import check_size, known_layers, plan_of, unit_asked
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing
 from report.drawing_read.row_matching import matched
+from report.project.check.finding_lines import listed
 from report.project.check.plan_shapes import far_off, us_first
-from report.project.check.problem_lines import listed
 from report.project.model.choices import LayerKind
 from report.project.model.input_rows import Inputs
-from report.project.model.placed import SIDES
 from report.project.model.roof import DRAWING, DRAWN_MODULES, ROOF
-from report.project.model.shapes import Polygon, Rectangle, Shape
+from report.project.model.shapes import SIDES, Polygon, Rectangle, Shape
 from report.project.read.changed_cells import Value
-from report.project.read.locate_cell import cell_as_column, find_cell, is_absent
+from report.project.read.locate import cell_as_column, find_cell, is_absent
 from report.project.read.positions import found_at
 from report.project.workbook import SECTION
 from report.project.write.filled import DIGITS, WorkbookChange

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from report.drawing_read.roof_drawing import DrawnOutline
 from report.project.model.choices import LayerKind
 from report.project.model.shapes import Polygon, mean, ring, solid
-from report.project.read.locate_table import MAX_ROWS
+from report.project.read.locate import MAX_ROWS
 from report.text.units import LENGTHS
 from solver.errors import InputError
 from solver.model import INCH_M

@@ -20,8 +20,8 @@ from report.drawing_read.heights import ABOVE_ROOF, first_height, read_line
 from report.drawing_read.modules import GAP_M, MOST_TEXTS, SIDES_M, joined
 from report.drawing_read.plan_as_drawn import RoofPlan
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing, Unread, Words
+from report.project.check.finding_lines import listed
 from report.project.check.plan_shapes import LEAST_VERTICES
-from report.project.check.problem_lines import listed
 from report.project.model.choices import LayerKind
 from report.project.model.shapes import Point, Polygon, Rectangle, Shape, crossing, ring, solid
 from report.text.units import LENGTHS, Quantity, pair

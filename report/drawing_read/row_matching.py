@@ -19,8 +19,8 @@ from report.drawing_read.moved import SAME_M, Move, whole_move
 from report.drawing_read.plan_as_drawn import STILL_M, RoofPlan, placed
 from report.drawing_read.plan_read import free_name
 from report.drawing_read.roof_drawing import DrawnOutline
+from report.project.check.finding_lines import listed
 from report.project.check.plan_shapes import roof_of, shapes_of, us_first
-from report.project.check.problem_lines import listed
 from report.project.model.choices import LayerKind
 from report.project.model.input_rows import InputRow, Inputs
 from report.project.model.roof import DRAWING

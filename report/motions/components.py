@@ -14,19 +14,44 @@ from typing import Any
 import numpy as np
 
 from report.motions.files import Component, Reader, find_file, find_heading, read_component
-from report.motions.spikes import spikes
 from report.project.check.motion_faults import LABELS, SHORTEST_S
 from report.project.model.choices import AccelUnit, Baseline, Scaling
 from report.project.model.finding import Finding
+from report.project.model.input_rows import Place
 from report.project.model.motion_input import MotionInput
-from report.project.model.place import Place
 from report.project.read.archive import OpenBook
 from report.project.read.unseen import Unseen
 from report.text.units import G_MPS2
 from solver.errors import InputError
 from solver.formats import read_motion_file
+from solver.model import Floats
 from solver.records.processing import Processing, process, process_together
 from solver.records.record import Record, has_gravity
+
+# Samples far above all others are a digit, a sign of a missing value or a loose contact.
+# Smallest spike / largest other sample: shaking rises to its peak over several samples.
+FACTOR = 3.0
+
+MOST = 10
+
+LEAST_SAMPLES_FOR_EACH = 100
+
+
+def spikes(a: Floats) -> tuple[tuple[int, ...], float]:
+    """Return the indexes of the spikes of a record, and the largest magnitude of the others.
+
+    Of 0.1, 0.2, 9.3, 0.3 g the third is one, in a longer record.
+    """
+    # At most `MOST` samples, and at most one in `LEAST_SAMPLES_FOR_EACH`, each of which is more
+    # than `FACTOR` times any sample that is none.
+    size = np.abs(a)
+    count_allowed = min(MOST, len(a) // LEAST_SAMPLES_FOR_EACH)
+    # Stable: of equal samples the first is named, on every machine.
+    largest = np.argsort(-size, kind="stable")[: count_allowed + 1]
+    for count in range(1, count_allowed + 1):
+        if size[largest[count - 1]] > FACTOR * size[largest[count]]:
+            return tuple(sorted(map(int, largest[:count]))), float(size[largest[count]])
+    return (), float(size.max(initial=0.0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,7 +119,7 @@ def read_components(
     # Cut to the end time first: beyond it the components of one recording often differ in length.
     up_to = Processing(to_s=math.inf if to_s is None else to_s)
     try:
-        records = {field: process(each.record, up_to) for field, each in components.items()}
+        records = {field: process(channel.record, up_to) for field, channel in components.items()}
     except InputError as error:
         return [*faults, *_faults(index, "record", error, row)]
     faults += [*_mismatches(index, records), *_unscalable(index, row, records)]

@@ -1,7 +1,7 @@
 """Reads one record that a workbook names: a file beside it, or a column in one of its sheets.
 
 `solver.formats` reads the record formats, `report.motions.pasted_column` a column; which files a
-workbook may access is in `report.project.read.linked_files`. Read `read_component`.
+workbook may access is in `report.project.read.documents`. Read `read_component`.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 
 from report.motions.pasted_column import heading_on, read_column
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.archive import OpenBook
-from report.project.read.linked_files import path_beside
+from report.project.read.documents import path_beside
 from report.project.read.positions import CellPosition
 from report.project.read.unseen import Unseen, unseen
 from solver.errors import InputError

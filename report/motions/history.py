@@ -63,9 +63,9 @@ class Targets:
     vertical: TargetSpectrum
     ground: TargetSpectrum
 
-    def horizontal(self, at: RecordedAt) -> TargetSpectrum:
+    def horizontal(self, recorded_at: RecordedAt) -> TargetSpectrum:
         """Return the target at the recording level of a motion."""
-        return self.ground if at is RecordedAt.GROUND else self.roof
+        return self.ground if recorded_at is RecordedAt.GROUND else self.roof
 
 
 # A function of the module, so that workers can pickle it.

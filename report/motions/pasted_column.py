@@ -65,7 +65,9 @@ def read_column(
             " below the heading; clear it, or give the record as a file"
         )
     _check_units(book, heading, units)
-    below = _filled(cells_below(book, heading))
+    below = cells_below(book, heading)
+    last = max((i for i, cell in enumerate(below) if not cell.is_blank), default=-1)
+    below = below[: last + 1]
     values = _numbers(below, units)
     parsed = _parsed_heading(book, heading)
     if parsed.is_magnitude and min(values, default=-1.0) >= 0.0:
@@ -157,12 +159,6 @@ def _heading_of_times(book: OpenBook, heading: CellPosition) -> CellPosition | N
         for column in range(heading.column - 1, 0, -1)
     )
     return next((place for place in places if _parsed_heading(book, place).kind is Kind.TIME), None)
-
-
-def _filled(cells: list[Found]) -> list[Found]:
-    """Return cells without the blank ones at their end."""
-    last = max((i for i, cell in enumerate(cells) if not cell.is_blank), default=-1)
-    return cells[: last + 1]
 
 
 def _numbers(cells: list[Found], unit: str) -> list[float]:

@@ -15,7 +15,7 @@ from report.motions.prepare import Shaking
 from report.project.check.motion_faults import FIELDS
 from report.project.model import ProjectInput
 from report.project.model.finding import Finding, note, warning
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.text.units import G_MPS2
 from solver.model import Motion
 

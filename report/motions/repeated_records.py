@@ -15,8 +15,7 @@ import numpy as np
 from report.motions.components import HORIZONTAL, Components
 from report.project.check.motion_faults import LABELS
 from report.project.model.finding import Finding
-from report.project.model.input_rows import InputRow
-from report.project.model.place import Place, Where
+from report.project.model.input_rows import InputRow, Place, Where
 from solver.model import Floats
 
 # Largest difference of two samples / peak where records are the same: above that of rounding.
@@ -34,12 +33,12 @@ class _Horizontal:
     row: InputRow
     shape: Floats
 
-    def repeats(self, other: _Horizontal) -> bool:
+    def repeats(self, record: _Horizontal) -> bool:
         """Whether it is another one again, at any scale and of either sign."""
         # Times that two motions take of their records may be apart: a file may hold two.
-        (start, end), (other_start, other_end) = map(_times, (self.row, other.row))
+        (start, end), (other_start, other_end) = map(_times, (self.row, record.row))
         overlaps = start < other_end and other_start < end
-        return overlaps and bool(np.abs(self.shape - other.shape).max() <= ALIKE)
+        return overlaps and bool(np.abs(self.shape - record.shape).max() <= ALIKE)
 
 
 def repeated(

@@ -125,7 +125,7 @@ def sets_of(
     )
     if len(paths) > MOST_FILES:
         raise InputError(f"has {len(paths)} files, more than {MOST_FILES}; name a folder within it")
-    left: list[Left] = []
+    unclear: list[Left] = []
     groups: dict[tuple[str, ...], list[Candidate]] = {}
     for path in paths:
         file = path.relative_to(folder).as_posix()
@@ -139,17 +139,17 @@ def sets_of(
                 key = (str(PurePosixPath(file).parent), *channel.motion, channel.format, kind)
                 groups.setdefault(key, []).append(channel)
         except InputError as error:
-            left.append((file, error.problems[0].removeprefix(f"{path.name}: ")))
+            unclear.append((file, error.problems[0].removeprefix(f"{path.name}: ")))
     clear: list[_Clear] = []
-    for (parent, stem, rest, *_), group in groups.items():
+    for (parent, stem, remainder, *_), group in groups.items():
         # x before y by azimuth, the vertical last: the order of the sheet.
         group.sort(key=lambda channel: (not channel.is_horizontal, channel.degrees))
         if why := next(_unclear(group, without_vertical), ""):
-            left.append((_listed(group), why))
+            unclear.append((_listed(group), why))
         else:
             name = _short(stem) or PurePosixPath(parent).name or whole or folder.resolve().name
-            clear.append((name, f"{name} {rest}".strip(), group))
-    clear = list(_corrected(clear, left))
+            clear.append((name, f"{name} {remainder}".strip(), group))
+    clear = list(_corrected(clear, unclear))
     plain = Counter(name for name, _, _ in clear)
     named = [(name if plain[name] == 1 else longer, group) for name, longer, group in clear]
     times = Counter(name for name, _ in named)
@@ -158,9 +158,9 @@ def sets_of(
         if times[name] == 1 and len(name) <= MOST_NAME:
             sets[name] = group
         else:
-            wanted = f"give them one of at most {MOST_NAME} letters that no other set has"
-            left.append((_listed(group), f"their name is {name}; {wanted}"))
-    return sets, left
+            remedy = f"give them one of at most {MOST_NAME} letters that no other set has"
+            unclear.append((_listed(group), f"their name is {name}; {remedy}"))
+    return sets, unclear
 
 
 def table(sets: Sets) -> Iterator[str]:
@@ -183,15 +183,15 @@ def _listed(group: Sequence[Candidate]) -> str:
     return ", ".join(f"{channel.name} ({channel.taken_for})" for channel in group)
 
 
-def _corrected(clear: Sequence[_Clear], left: list[Left]) -> Iterator[_Clear]:
+def _corrected(clear: Sequence[_Clear], unclear: list[Left]) -> Iterator[_Clear]:
     """Yield the sets without those of volume 1 where the same motion is there as volume 2."""
     volumes = [(longer, _VOLUME.search(group[0].file)) for _, longer, group in clear]
     corrected = {longer for longer, volume in volumes if volume and volume[1] == "2"}
-    for each, (longer, volume) in zip(clear, volumes, strict=True):
+    for item, (longer, volume) in zip(clear, volumes, strict=True):
         if volume and volume[1] == "1" and longer in corrected:
-            left.append((_listed(each[2]), "uncorrected; the corrected records are taken"))
+            unclear.append((_listed(item[2]), "uncorrected; the corrected records are taken"))
         else:
-            yield each
+            yield item
 
 
 def _short(name: str) -> str:
@@ -294,8 +294,8 @@ def _by_heading(text: str) -> _Meant | None:
     words = re.findall(r"[a-z0-9]+(?:-[a-z](?![a-z]))?", _CHANNEL.sub(" ", text.casefold()))
     for k, word in enumerate(words):
         if direction := _by_word(word):
-            rest = [each for each in (*words[:k], *words[k + 1 :]) if not _NOISE.fullmatch(each)]
-            return direction[0], direction[1], " ".join(filter(None, (direction[2], *rest)))
+            further = [text for text in (*words[:k], *words[k + 1 :]) if not _NOISE.fullmatch(text)]
+            return direction[0], direction[1], " ".join(filter(None, (direction[2], *further)))
     return None
 
 

@@ -15,10 +15,9 @@ from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.clearances import by_id
 from report.assessment.design.friction import SHIFT, mu_words, with_mu
 from report.assessment.support.evidence import Evidence
-from report.assessment.support.margins import Margin
+from report.assessment.support.further_runs import Cumulative
 from report.assessment.support.shifted_friction import Accuracy
-from report.assessment.support.smaller_events import Cumulative
-from report.assessment.support.uncertainty import Uncertainty
+from report.assessment.support.uncertainty import Margin, Uncertainty
 from report.document.columns import length, required, text, words
 from report.document.tables import Column, Table, listed, merged
 from report.pages.parts import PackageData

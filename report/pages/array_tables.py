@@ -12,11 +12,11 @@ from report.assessment.assessment import Assessment
 from report.assessment.causes import unshown_cause
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.friction import mu_words
-from report.assessment.design.gaps import ComparedGap
 from report.assessment.design.routes import SEAOC, prescriptive_of
-from report.assessment.design.words import NOT_GIVEN
+from report.assessment.design.separation import ComparedGap
+from report.assessment.design.verdict import NOT_GIVEN
 from report.assessment.plan.neighbors import PlanNeighbor
-from report.assessment.support.keep_clear import keep_clear, keep_clear_m, keep_clear_mark
+from report.assessment.support.plan_gaps import keep_clear, keep_clear_m, keep_clear_mark
 from report.document.columns import centered, plain, provided, required, text, weight, words
 from report.document.tables import Column, Table, listed, merged
 from report.pages.parts import PackageData, bar

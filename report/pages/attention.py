@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.alike import alike
-from report.assessment.checks.sentence import sentence
+from report.assessment.checks.sentence import alike, sentence
 from report.assessment.precheck import findings
-from report.assessment.remedies.remedies import remedies
+from report.assessment.remedies.remedy import remedies
 from report.pages.saving import without_analysis
 from report.project.check.finding_lines import lines
 from report.project.model.finding import Level

@@ -14,9 +14,8 @@ from markupsafe import Markup
 
 from report.assessment.assessment import Assessment
 from report.assessment.causes import failed, governing_words, largest
-from report.assessment.checks.alike import alike
 from report.assessment.checks.check import MOTIONS_ID, Check
-from report.assessment.checks.sentence import found_and_limit, texts
+from report.assessment.checks.sentence import alike, found_and_limit, texts
 from report.assessment.design.verdict import Verdict
 from report.document.tables import Table, TableRow, Wide, headed, stamp
 from report.pages.symbols import with_symbols

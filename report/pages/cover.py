@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from report.document.tables import headed
 from report.pages.parts import PackageData
 from report.pages.symbols import friction_standard
-from report.project.model.issue import Revision
+from report.project.model import Revision
 
 
 def page(package: PackageData) -> Mapping[str, object]:

@@ -12,14 +12,17 @@ from report.assessment.checks.check import VELOCITY_ROW
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.clearances import by_id
 from report.assessment.design.friction import mu_words
-from report.assessment.design.tested_friction import MOST_BEYOND, basis_words, tested
-from report.assessment.design.velocity_check import velocity_check
-from report.assessment.design.verdict import Verdict
-from report.assessment.design.words import NOT_GIVEN
+from report.assessment.design.tested_friction import (
+    MOST_BEYOND,
+    basis_words,
+    tested,
+    velocity_check,
+)
+from report.assessment.design.verdict import NOT_GIVEN, Verdict
 from report.document.columns import ColumnHead, centered, text, words
 from report.document.tables import Table, Wide, by_place, listed, merged, stamp
 from report.pages.parts import PackageData
-from report.project.check.friction_faults import MU_TOLERANCE
+from report.project.check.array_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.friction_report import FrictionTests

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.alike import subjects
+from report.assessment.checks.sentence import subjects
 from report.assessment.design.verdict import Verdict
 from report.assessment.precheck import findings
-from report.assessment.remedies.remedies import MOST, Remedies
+from report.assessment.remedies.remedy import MOST, Remedies
 from report.assessment.support.evidence import Evidence
 from report.document.tables import headed
 from report.pages.checks import all_checks

@@ -13,9 +13,8 @@ from operator import attrgetter
 
 from markupsafe import Markup
 
-from report.assessment.checks.alike import alike
 from report.assessment.checks.check import STRENGTH_ROW, Check
-from report.assessment.checks.sentence import texts
+from report.assessment.checks.sentence import alike, texts
 from report.assessment.design.clearances import ClearanceCheck
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import severity

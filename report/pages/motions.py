@@ -9,11 +9,10 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
-from report.assessment.checks.records import DRIFT_M, drifts
-from report.assessment.support.departures import Departure, departures
+from report.assessment.checks.motion_checks import DRIFT_M, drifts
 from report.assessment.support.evidence import Evidence
-from report.assessment.support.filter_effect import Beyond
-from report.assessment.support.spectra import Spectra
+from report.assessment.support.further_runs import Beyond
+from report.assessment.support.spectra import Departure, Spectra, departures
 from report.document.columns import centered, length, plain, text, words
 from report.document.tables import Column, Table, headed, listed
 from report.motions.history import OWN, PreparedMotion

@@ -12,8 +12,7 @@ from functools import cached_property
 from markupsafe import Markup
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.alike import alike
-from report.assessment.checks.sentence import sentence
+from report.assessment.checks.sentence import alike, sentence
 from report.assessment.design.verdict import Verdict
 from report.assessment.revision_changes import NO_FORMER, Changes
 from report.document.tables import stamp

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.alike import alike
-from report.assessment.checks.sentence import sentence
+from report.assessment.checks.sentence import alike, sentence
 from report.assessment.design.routes import Route
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.alike import alike
 from report.assessment.checks.check import VELOCITY_ROW
-from report.assessment.remedies.remedies import Remedies
+from report.assessment.checks.sentence import alike
+from report.assessment.remedies.remedy import Remedies
 from report.assessment.support.evidence import Evidence
 from report.document.tables import stamp
 from report.pages.array_tables import summary_table

@@ -24,7 +24,7 @@ from pydantic import BaseModel, ConfigDict, StringConstraints
 from report.motions.components import RecordFile
 from report.motions.files import BAR, MOST_RECORDS
 from report.motions.prepare import Shaking
-from report.project.read.workbook_data import Sheet, Source
+from report.project.read.workbook_data import Sheet, WorkbookSource
 from report.provenance.release import version
 from report.typeset.finish import Attached
 from solver.errors import InputError
@@ -151,7 +151,7 @@ class SourceFile:
         )
 
 
-def fingerprint(source: Source, shaking: Shaking) -> str:
+def fingerprint(source: WorkbookSource, shaking: Shaking) -> str:
     """Return the hash of workbook, records, documents and version at the foot of every sheet."""
     # Order counts: records that are exchanged give other runs, with the same hashes.
     lines = [
@@ -179,7 +179,7 @@ def holds_records(records: Sequence[RecordFile]) -> bool:
     return record_bytes(records) <= MOST_RECORDS
 
 
-def sources(sheet: Sheet, shaking: Shaking, former: bytes = b"") -> tuple[SourceFile, ...]:
+def sources(sheet: Sheet, shaking: Shaking, earlier: bytes = b"") -> tuple[SourceFile, ...]:
     """Return what a package has inside: workbook, record files, documents, a former results.json.
 
     Each as it was read, whatever lies in its place by now.
@@ -187,7 +187,7 @@ def sources(sheet: Sheet, shaking: Shaking, former: bytes = b"") -> tuple[Source
     Raises `InputError` if a file was read for several motions or cells, and was not the same each
     time.
     """
-    kept, rows = sheet.book.files | sheet.book.records, record_paths(shaking.records)
+    contents, rows = sheet.book.files | sheet.book.records, record_paths(shaking.records)
     used = [(_path(row), row.sha256) for row in shaking.records if row.is_file]
     used += [(document.path, document.sha256) for document in sheet.documents]
     # One file may be named by several motions or cells, and is read for each.
@@ -195,14 +195,14 @@ def sources(sheet: Sheet, shaking: Shaking, former: bytes = b"") -> tuple[Source
     if changed := [path for path, sha256 in used if sha256 != last[path]]:
         raise InputError(f"{changed[0]}: changed while the report ran; run it again")
     are_held = holds_records(shaking.records)
-    files = [_source(sheet.path.name, kept[sheet.sha256], "workbook")]
+    files = [_source(sheet.path.name, contents[sheet.sha256], "workbook")]
     for path, row in rows.items():
-        content, only = (kept[row.sha256], None) if are_held else (b"", row)
+        content, only = (contents[row.sha256], None) if are_held else (b"", row)
         files.append(replace(_source(path, content, "record"), record=only))
     for path in dict.fromkeys(document.path for document in sheet.documents):
-        files.append(_source(path, kept[last[path]], "document"))
-    if former:
-        files.append(_source(FORMER, former, "former"))
+        files.append(_source(path, contents[last[path]], "document"))
+    if earlier:
+        files.append(_source(FORMER, earlier, "former"))
     return tuple(_unlike(files))
 
 
@@ -230,20 +230,20 @@ def _unlike(files: Sequence[SourceFile]) -> Iterator[SourceFile]:
 def attachments(files: Sequence[SourceFile], results: bytes, short: str) -> tuple[Attached, ...]:
     """Return the attachments of a package; `short` is what `fingerprint` returns."""
     has_records = not any(source.record for source in files)
-    own = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")
+    results_file = SourceFile(path=RESULTS, name=RESULTS, content=results, kind="results")
     document = Manifest(
         schema_version=SCHEMA_VERSION,
         roofslip_version=version(),
         hash=short,
         has_records=has_records,
-        files=tuple(source.listed for source in (*files, own)),
+        files=tuple(source.listed for source in (*files, results_file)),
         environment=dict(environment()),
     ).model_dump(mode="json")
     # Two runs must give the same bytes: no date, and keys in the order of the model.
     listed = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
     return (
         *(_attached(source) for source in files if has_records or source.kind != "record"),
-        _attached(own),
+        _attached(results_file),
         _attached(SourceFile(path=MANIFEST, name=MANIFEST, content=listed, kind="manifest")),
     )
 

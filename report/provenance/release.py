@@ -40,12 +40,12 @@ def of_folder(folder: Path) -> str:
     try:
         from dunamai import Version
 
-        found = Version.from_git(_NO_TAG, path=folder, ignore_untracked=True, commit_length=8)
+        checkout = Version.from_git(_NO_TAG, path=folder, ignore_untracked=True, commit_length=8)
     # dunamai or git is not installed, or git refuses a folder that belongs to another user.
     except (ImportError, OSError, RuntimeError):
         return f"{base}+unknown"
-    count = found.distance or ""  # an archive has the commit alone
-    return f"{base}{count}+{found.commit}{'.dirty' if found.dirty else ''}"
+    count = checkout.distance or ""  # an archive has the commit alone
+    return f"{base}{count}+{checkout.commit}{'.dirty' if checkout.dirty else ''}"
 
 
 def _names_a_commit(folder: Path) -> bool:

@@ -19,7 +19,7 @@ from report.motions.files import BAR
 from report.project.check.finding_lines import lines
 from report.project.check.motion_faults import GENERATED, LABELS
 from report.project.model.finding import Finding, limit
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.changed_cells import Value
@@ -48,16 +48,16 @@ def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Valu
     change = WorkbookChange(book)
     ids: list[Found] = []
     for row in rows:
-        there = change.rows("motions", "id", str(row["id"]))
-        if any(not _is_former(change, number, row) for number in there):
-            ids += [change.cell("motions", number, "id") for number in there]
-        elif there:
-            change.put("motions", there[0], {"source": row["source"]})
+        numbers = change.rows("motions", "id", str(row["id"]))
+        if any(not _is_former(change, number, row) for number in numbers):
+            ids += [change.cell("motions", number, "id") for number in numbers]
+        elif numbers:
+            change.put("motions", numbers[0], {"source": row["source"]})
         else:
             change.put("motions", change.added_row("motions"), row)
     if ids:
-        wanted = "remove the row, or leave the motion out"
-        raise InputError([Problem(f"has '{c.shown}' already", wanted, c.address) for c in ids])
+        remedy = "remove the row, or leave the motion out"
+        raise InputError([Problem(f"has '{c.shown}' already", remedy, c.address) for c in ids])
     return change.cells
 
 
@@ -144,7 +144,7 @@ def set_rows(
         raise InputError(taken)
     rows: list[Row] = []
     for name, group in sets.items():
-        cells = [names[each.file] + each.name.removeprefix(each.file) for each in group]
+        cells = [names[channel.file] + channel.name.removeprefix(channel.file) for channel in group]
         # Two where there is no vertical record, which is the last of the labels.
         records = dict(zip(LABELS, cells, strict=False))
         rows.append({"id": name, **records, "source": f"{name}, {group[0].format}", **about})
@@ -161,9 +161,9 @@ def other_sources(sheet: Sheet) -> Iterator[Finding]:
     """
     for index, row in enumerate(sheet.inputs["motions"]):
         source = row.get("source") or ""
-        said = _source(sheet.path.parent / str(row.get("record") or "").replace("\\", "/"))
-        if said and _differs(source, said):
-            text = f"source is '{source}', and suite.json beside the records says '{said}'"
+        stated = _source(sheet.path.parent / str(row.get("record") or "").replace("\\", "/"))
+        if stated and _differs(source, stated):
+            text = f"source is '{source}', and suite.json beside the records says '{stated}'"
             renew = "renew it by motion suite with --into, or correct it"
             yield limit(f"{text}; {renew}", Place("motions", index, "source"))
 
@@ -194,10 +194,10 @@ def _source(record: Path) -> str:
         return ""
 
 
-def _differs(source: str, said: str) -> bool:
+def _differs(source: str, stated: str) -> bool:
     """Whether a source is a former one, or states another number."""
-    typed, made = dict(_STATED.findall(source)), dict(_STATED.findall(said))
-    return (source.startswith(GENERATED) and source != said) or any(
+    typed, made = dict(_STATED.findall(source)), dict(_STATED.findall(stated))
+    return (source.startswith(GENERATED) and source != stated) or any(
         not math.isclose(float(typed[name]), float(made[name]), rel_tol=0.005)
         for name in typed.keys() & made
     )

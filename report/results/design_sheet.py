@@ -119,8 +119,8 @@ def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
             sheet.data_validation(cell, {"validate": "list", "source": choices})
         else:
             mark = OVERRIDDEN if item.key in changed else ""
-            shown = pages.number(item.decimals, mark, is_input=True)
-            sheet.write_number(cell, typed(item.value), shown)
+            look = pages.number(item.decimals, mark, is_input=True)
+            sheet.write_number(cell, typed(item.value), look)
         cells[item.key] = f"Inputs!$B${row}"
     return cells
 
@@ -324,7 +324,7 @@ def _row(
     is_flat = item.prescriptive.governs is PrescriptiveBasis.LOW_CATEGORY
     is_mean = item.analysis.basis is Basis.MEAN
     # Those that live formulas decide would count twice, and keep an old verdict.
-    others = (c for c in assessment.checks if item.id in c.arrays and c.id not in _LIVE)
+    further = (c for c in assessment.checks if item.id in c.arrays and c.id not in _LIVE)
     formulas = {"verdict": _verdict(results)}
     # There the factor is 1, and an input cell would seem to change something.
     if rules.importance_in_separation:
@@ -345,7 +345,7 @@ def _row(
         others=worst(
             [
                 Verdict.OK if item.is_permitted else Verdict.NG,
-                *(check.verdict for check in others),
+                *(check.verdict for check in further),
             ]
         ),
         s_ds_g=data.site.s_ds,

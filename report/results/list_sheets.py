@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from operator import attrgetter
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.alike import alike
 from report.assessment.checks.check import Check
-from report.assessment.checks.sentence import found_and_limit
+from report.assessment.checks.sentence import alike, found_and_limit
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.linked_blocks import LinkedArray, LinkedMotion, LinkedRun
 from report.assessment.support.spectra import Spectra
@@ -207,8 +206,8 @@ def write_requirements(pages: Pages, assessment: Assessment) -> None:
     """Write the checks but the clearances, which have a sheet; those that ask the same as one."""
     rows = []
     for check in alike(check for check in assessment.checks if check.id != "clearance"):
-        found, limit = found_and_limit(check, assessment.project.us_first)
-        rows.append(SheetRow(item=_CheckTexts(check=check, found=found, limit=limit)))
+        found_text, limit = found_and_limit(check, assessment.project.us_first)
+        rows.append(SheetRow(item=_CheckTexts(check=check, found=found_text, limit=limit)))
     write_live(
         pages,
         _CHECKS,

@@ -125,12 +125,12 @@ def check_of_workbook(folder: Path, results: str, workbook: str) -> None:
     Raises `InputError`.
     """
     try:
-        there = from_json(content(folder / results))["workbook"]["name"]
+        name = from_json(content(folder / results))["workbook"]["name"]
     except (ValueError, KeyError, TypeError):  # no results, or not as this version writes them
         return
-    if isinstance(there, str) and there != workbook:
+    if isinstance(name, str) and name != workbook:
         raise InputError(
-            f"{folder}: has the results of {there}, not of {workbook}; choose another folder with"
+            f"{folder}: has the results of {name}, not of {workbook}; choose another folder with"
             " --out, or delete this one if the workbook was renamed"
         )
 

@@ -80,10 +80,10 @@ def former_from(content: bytes, path: Path) -> Compared:
         raise InputError(f"{path}: schema_version is {stated}; this version reads {known}; {AGAIN}")
     try:
         # Strict: "1.0" is no number, and true is none either.
-        former = Compared.model_validate_json(content, strict=True)
+        earlier = Compared.model_validate_json(content, strict=True)
     except ValidationError as error:
         raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
-    for text in _texts(former.model_dump(mode="json")):
+    for text in _texts(earlier.model_dump(mode="json")):
         if letter := UNPRINTABLE.search(text):
             raise InputError(
                 f"{path}: '{cut(text)}' has the character U+{ord(letter[0]):04X}, which cannot be"
@@ -95,7 +95,7 @@ def former_from(content: bytes, path: Path) -> Compared:
                 f"{path}: no font of this machine has {named(missing)} of '{cut(text)}'; install"
                 " one that does"
             )
-    return former
+    return earlier
 
 
 def _texts(value: Any) -> Iterator[str]:
@@ -114,5 +114,5 @@ def _first(error: ValidationError) -> str:
     """Return the first problem with its place in the file."""
     first = error.errors(include_url=False, include_input=False, include_context=False)[0]
     place = ".".join(str(step) for step in first["loc"])
-    more = f", and {error.error_count() - 1} more" if error.error_count() > 1 else ""
-    return f"{place or 'the whole'} is not as `report` writes it{more}"
+    further = f", and {error.error_count() - 1} more" if error.error_count() > 1 else ""
+    return f"{place or 'the whole'} is not as `report` writes it{further}"

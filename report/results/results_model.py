@@ -17,7 +17,7 @@ from report.assessment.design.arrays import DesignBasis
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import ItemVerdict, Verdict
 from report.assessment.plan.neighbors import Cover, NearbyKind
-from report.assessment.remedies.remedies import RemedyKind
+from report.assessment.remedies.remedy import RemedyKind
 from report.project.model import ProjectInput
 from report.project.model.choices import Direction, DistanceBasis, RecordedAt
 from report.project.model.finding import Level

@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema
 
 from report.project.model import ProjectInput
-from report.project.model.frozen import Frozen
+from report.project.model.choices import Frozen
 from report.project.workbook import SECTION, SECTIONS
 from report.results.results_model import Results
 
@@ -48,13 +48,13 @@ class _Described(GenerateJsonSchema):
 def _with_notes(written: dict[str, Any], model: type[Frozen]) -> dict[str, Any]:
     """Return the schema of a model of the workbook with the headings and notes of its inputs."""
     if model is ProjectInput:
-        for name, of in written["properties"].items():
-            of["description"] = SECTION[name].note
+        for name, field in written["properties"].items():
+            field["description"] = SECTION[name].note
     for section in SECTIONS:
         for entry in section.entries if section.model is model else ():
-            of = written["properties"][entry.name]
-            of["title"] = entry.heading
-            of["description"] = entry.note
+            field = written["properties"][entry.name]
+            field["title"] = entry.heading
+            field["description"] = entry.note
     return written
 
 

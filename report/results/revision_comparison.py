@@ -15,12 +15,10 @@ from report.assessment.assessment import Assessment
 from report.assessment.checks.check import condition
 from report.assessment.revision_changes import Change, ChangeKind, Changes
 from report.project.check.covered import COVERED
-from report.project.model.choices import Direction, YesNo
-from report.project.model.frozen import Frozen
-from report.project.model.place import Place
+from report.project.model.choices import Direction, Frozen, YesNo
+from report.project.model.input_rows import Place
 from report.project.workbook import SECTIONS
-from report.project.workbook.entries import Entry
-from report.project.workbook.sections import SheetSection
+from report.project.workbook.entries import Entry, SheetSection
 from report.results.results_json import GIVE
 from report.results.results_model import ArrayResult, ClearanceResult, Compared, ResultModel
 from report.results.rows import compared
@@ -97,7 +95,7 @@ def _checks(earlier: Compared, current: Compared) -> Iterator[Change]:
     if "checks" not in earlier.model_fields_set:
         return
     before, after = (
-        [row for row in of.checks if row.id not in _LISTED] for of in (earlier, current)
+        [row for row in revision.checks if row.id not in _LISTED] for revision in (earlier, current)
     )
     text = "{row.found_text}: {row.verdict}"
     yield from _rows(ChangeKind.REQUIREMENT, before, after, "{row.subject}, {row.title}", text)
@@ -144,11 +142,11 @@ def _one(
 
 
 def _paired(
-    rows: Iterable[_Row], others: Iterable[_Row], key: Callable[[_Row], tuple[str, ...]]
+    first: Iterable[_Row], second: Iterable[_Row], key: Callable[[_Row], tuple[str, ...]]
 ) -> Mapping[tuple[str, ...], _Pair[_Row]]:
     """Return the rows of two revisions by key; equal keys are numbered."""
-    mine, other = (_keyed(each, key) for each in (rows, others))
-    return {name: (mine.get(name), other.get(name)) for name in mine | other}
+    a, b = (_keyed(rows, key) for rows in (first, second))
+    return {name: (a.get(name), b.get(name)) for name in a | b}
 
 
 def _keyed(
@@ -220,14 +218,14 @@ def _name(section: SheetSection, key: tuple[str, ...]) -> str:
 
 
 def _fields(
-    name: str, earlier_row: Frozen, new: Frozen, cells: Mapping[Entry, str], us_first: bool
+    name: str, earlier_row: Frozen, current_row: Frozen, cells: Mapping[Entry, str], us_first: bool
 ) -> Iterator[Change]:
     for entry, cell in cells.items():
-        before, current = getattr(earlier_row, entry.name), getattr(new, entry.name)
+        before, current = getattr(earlier_row, entry.name), getattr(current_row, entry.name)
         if not _same(before, current):
             title = f"{name}: {entry.heading}" if name else entry.heading
-            shown = [_shown(entry, value, us_first) for value in (before, current)]
-            yield _input(title, shown[0], shown[1], cell)
+            texts = [_shown(entry, value, us_first) for value in (before, current)]
+            yield _input(title, texts[0], texts[1], cell)
 
 
 def _same(before: object, current: object) -> bool:
@@ -357,7 +355,7 @@ def _as_texts(
     key: str, earlier_row: ResultModel | None, row: ResultModel | None, fmt: UnitFormat
 ) -> Sequence[str]:
     """Return a result before and now; numbers have more digits where they would print alike."""
-    values = [getattr(each, key) if each else NOT_THERE for each in (earlier_row, row)]
+    values = [getattr(result, key) if result else NOT_THERE for result in (earlier_row, row)]
     texts = [_text(key, value, fmt) for value in values]
     # Results that differ by more than rounding may still print alike.
     if texts[0] != texts[1]:

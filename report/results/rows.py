@@ -18,17 +18,17 @@ from report.assessment.design.friction import mu_words
 from report.assessment.design.linked_blocks import LinkedArray, LinkedMotion, LinkedRun
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.assessment.precheck import findings
-from report.assessment.remedies.remedies import Remedies
+from report.assessment.remedies.remedy import Remedies
 from report.assessment.support.evidence import Evidence
-from report.assessment.support.smaller_events import Cumulative
+from report.assessment.support.further_runs import Cumulative
 from report.assessment.support.uncertainty import Uncertainty
 from report.motions.components import RecordFile
 from report.motions.history import PreparedMotion
 from report.project.check.finding_lines import located
 from report.project.model.choices import Direction
 from report.project.model.finding import Finding
+from report.project.model.input_rows import Place
 from report.project.model.motion_input import BuildingInput
-from report.project.model.place import Place
 from report.project.read.documents import Document
 from report.provenance.release import version
 from report.results import results_model as model
@@ -108,17 +108,14 @@ def _document(document: Document) -> model.DocumentResult:
 
 
 def _motion(motion: Motion, prepared: PreparedMotion) -> model.MotionResult:
+    samples = np.concatenate((motion.ax_mps2, motion.ay_mps2, motion.az_mps2))
     return model.MotionResult(
         id=motion.id, recorded_at=prepared.recorded_at, processing=prepared.done,
         scaling=prepared.scaling, scale=motion.scale, dt_s=motion.dt_s, npts=len(motion.ax_mps2),
-        sha256=_hash(motion), components=prepared.measures,
+        sha256=hashlib.sha256(samples.astype("<f8").tobytes()).hexdigest(),
+        components=prepared.measures,
         building={name: _roof(roof) for name, roof in prepared.roof.items()},
     )  # fmt: skip
-
-
-def _hash(motion: Motion) -> str:
-    samples = np.concatenate((motion.ax_mps2, motion.ay_mps2, motion.az_mps2))
-    return hashlib.sha256(samples.astype("<f8").tobytes()).hexdigest()
 
 
 def _printed(us_first: bool) -> model.PrintedResult:
@@ -143,11 +140,11 @@ def _roof(roof: RoofMotion) -> model.RoofResult:
 
 
 def finding_results(
-    found: Iterable[Finding], addresses: Mapping[Place, str]
+    findings: Iterable[Finding], addresses: Mapping[Place, str]
 ) -> Iterator[model.FindingResult]:
     """Yield warnings and notes on the input, each with its cell."""
-    shown = tuple(found)
-    for finding, cell in zip(shown, located(shown, addresses), strict=True):
+    listed = tuple(findings)
+    for finding, cell in zip(listed, located(listed, addresses), strict=True):
         yield model.FindingResult(
             level=finding.level, id=finding.id, cell=cell, text=finding.text, reason=finding.reason,
         )  # fmt: skip
@@ -286,21 +283,21 @@ def _neighbor(pair: PlanNeighbor) -> model.NeighborResult:
         is_missing=pair.is_missing, add_to=pair.to_add,
         given=tuple(
             model.GivenResult(
-                clearance=str(given.number),
-                cell=given.cell,
-                provided_m=given.clearance.provided_m,
+                clearance=str(gap.number),
+                cell=gap.cell,
+                provided_m=gap.clearance.provided_m,
             )
-            for given in pair.given
+            for gap in pair.given
         ),
-        contradictions=tuple(given.cell for given in pair.contradictions), cover=pair.cover,
+        contradictions=tuple(gap.cell for gap in pair.contradictions), cover=pair.cover,
         what=pair.what,
     )  # fmt: skip
 
 
-def _remedies(found: Remedies) -> Iterator[model.RemedyResult]:
+def _remedies(advice: Remedies) -> Iterator[model.RemedyResult]:
     """Yield the remedies of each check, then the changes that are enough together, if several."""
-    remedies_of_checks = [((remedy,), remedy.done) for remedy in found.own]
-    together = (found.together[len(found.together) == 1 :], found.done)
+    remedies_of_checks = [((remedy,), remedy.done) for remedy in advice.own]
+    together = (advice.together[len(advice.together) == 1 :], advice.done)
     for remedies, done in [*remedies_of_checks, together]:
         if remedies and done:
             checks = chain.from_iterable(remedy.checks for remedy in remedies)

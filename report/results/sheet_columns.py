@@ -85,9 +85,9 @@ class SheetColumn:
             return "not entered"
         # By the unit in the heading, so that heading and number cannot differ.
         convert = _FROM_SI.get(self.unit)
-        held = convert(value) if convert and not isinstance(value, str) else value
+        converted = convert(value) if convert and not isinstance(value, str) else value
         is_rounded = self.rounding is not Rounding.NEAREST
-        return self.rounding.of(held, self.decimals or 0) if is_rounded else held
+        return self.rounding.of(converted, self.decimals or 0) if is_rounded else converted
 
     @property
     def unit(self) -> str:
@@ -127,14 +127,14 @@ class SheetLayout:
     @cached_property
     def columns(self) -> Sequence[SheetColumn]:
         """The columns, with the exact one of each name that is rounded up at the end."""
-        shown: list[SheetColumn] = []
+        columns: list[SheetColumn] = []
         exact: dict[str, SheetColumn] = {}
         for column in self.own:
             is_up = column.rounding is Rounding.UP
-            shown.append(column.rounded() if is_up else column)
+            columns.append(column.rounded() if is_up else column)
             if is_up:
                 exact.setdefault(column.name, column.exact())
-        return *shown, *exact.values()
+        return *columns, *exact.values()
 
     @cached_property
     def letters(self) -> Mapping[str, str]:
@@ -142,8 +142,8 @@ class SheetLayout:
         names = [column.name for column in self.columns]
         # Of a value that is shown rounded up, that of its exact column, the last.
         exact = {column.name for column in self.own if column.rounding is Rounding.UP}
-        at = {name: place for place, name in enumerate(names) if name in exact}
-        return {name: xl_col_to_name(at.get(name, names.index(name))) for name in names}
+        places = {name: place for place, name in enumerate(names) if name in exact}
+        return {name: xl_col_to_name(places.get(name, names.index(name))) for name in names}
 
     @property
     def n_printed(self) -> int | None:
@@ -158,8 +158,8 @@ class SheetLayout:
     def printed(self, item: Any, name: str) -> float | str:
         """Return what the first cell of a name holds of an item."""
         column = next(column for column in self.columns if column.name == name)
-        held: float | str = _finite(column.held(item))
-        return held
+        value: float | str = _finite(column.held(item))
+        return value
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -191,8 +191,8 @@ class Cells:
         return self._range(xl_col_to_name(names.index(name)))
 
     def _range(self, letter: str) -> str:
-        to = f":{letter}{self._last}" if self._last else ""
-        return f"{self._sheet}{letter}{self._first}{to}"
+        end = f":{letter}{self._last}" if self._last else ""
+        return f"{self._sheet}{letter}{self._first}{end}"
 
 
 def typed(value: float) -> float:
@@ -297,8 +297,8 @@ def lay_out(
     sheet.write_row(top, 0, headings, pages.head)
     widest = _WIDEST if printed != 0 else _WIDEST_DATA
     widths = [_width(head, cells, widest) for head, *cells in zip(headings, *rows, strict=True)]
-    for at, width in enumerate(widths):
-        sheet.set_column(at, at, width)
+    for place, width in enumerate(widths):
+        sheet.set_column(place, place, width)
     for number, texts in enumerate((headings, *rows), start=top):
         sheet.set_row(number, LINE_PT * max(map(lines_of, texts, widths)))
     sheet.freeze_panes(top + 1, keys)
@@ -342,10 +342,10 @@ def write_live(
 ) -> Worksheet:
     """Write rows as a sheet with live formulas."""
     columns = layout.columns
-    shown = [[_shown(column.held(row.item), column.decimals) for column in columns] for row in rows]
+    texts = [[_shown(column.held(row.item), column.decimals) for column in columns] for row in rows]
     headings = [column.head for column in columns]
     sheet = pages.sheet(
-        layout.sheet, title, note, headings, shown, layout.key_columns, layout.n_printed
+        layout.sheet, title, note, headings, texts, layout.key_columns, layout.n_printed
     )
     write_rows(pages, sheet, layout, TOP, rows)
     return sheet
@@ -356,15 +356,15 @@ def write_rows(
 ) -> None:
     """Write rows from a row of a sheet on: each formula with the value that it gives."""
     for number, row in enumerate(rows, start=top):
-        own = {name: f"{letter}{number}" for name, letter in layout.letters.items()}
-        for at, column in enumerate(layout.columns):
+        cells = {name: f"{letter}{number}" for name, letter in layout.letters.items()}
+        for place, column in enumerate(layout.columns):
             if column.name in row.blanks:
                 continue
             # A name may have several columns: the formula of a row is that of the first.
-            is_first = layout.letters[column.name] == xl_col_to_name(at)
+            is_first = layout.letters[column.name] == xl_col_to_name(place)
             formula = row.formulas.get(column.name, column.formula) if is_first else column.formula
-            formula = formula.format(**own, **row.refs)
-            _write(pages, sheet, (number - 1, at), row, column, formula)
+            formula = formula.format(**cells, **row.refs)
+            _write(pages, sheet, (number - 1, place), row, column, formula)
 
 
 def _write(
@@ -377,16 +377,16 @@ def _write(
 ) -> None:
     value = _finite(column.held(row.item))
     is_input = column.is_input and not formula
-    shown = pages.number(column.decimals, row.marks.get(column.name, ""), is_input=is_input)
+    look = pages.number(column.decimals, row.marks.get(column.name, ""), is_input=is_input)
     if isinstance(value, str) and column.decimals is None:
-        shown = pages.typed_text if is_input else pages.text
+        look = pages.typed_text if is_input else pages.text
     if formula and (column.is_always or value != NO_VALUE):
         # With its value: a program that computes nothing shows it, too.
-        sheet.write_formula(*place, formula, shown, value)
+        sheet.write_formula(*place, formula, look, value)
     elif isinstance(value, str):
-        sheet.write_string(*place, value, shown)
+        sheet.write_string(*place, value, look)
     else:
-        sheet.write_number(*place, typed(value) if is_input else value, shown)
+        sheet.write_number(*place, typed(value) if is_input else value, look)
 
 
 def write_list(
@@ -421,12 +421,12 @@ def write_table(
         else None
         for heading, values in table.items()
     ]
-    shown = [list(map(_shown, row, decimals)) for row in zip(*table.values(), strict=True)]
-    lay_out(pages, sheet, 0, list(table), shown, keys, None if is_printed else 0)
-    for at, (values, digits) in enumerate(zip(table.values(), decimals, strict=True)):
+    texts = [list(map(_shown, row, decimals)) for row in zip(*table.values(), strict=True)]
+    lay_out(pages, sheet, 0, list(table), texts, keys, None if is_printed else 0)
+    for place, (values, digits) in enumerate(zip(table.values(), decimals, strict=True)):
         is_text = any(isinstance(value, str) for value in values)
         look = pages.text if is_text else pages.number(digits)
-        sheet.write_column(1, at, map(_finite, values), look)
+        sheet.write_column(1, place, map(_finite, values), look)
 
 
 def _shown(value: Any, decimals: int | None) -> str:

@@ -47,8 +47,8 @@ def write_summary(
     From the rows of the Design and Clearances worksheets.
     """
     sheet: Worksheet = pages.workbook.get_worksheet_by_name("Summary")
-    for at, width in enumerate(_WIDTHS):
-        sheet.set_column(at, at, width)
+    for index, width in enumerate(_WIDTHS):
+        sheet.set_column(index, index, width)
     sheet.write_string(0, 0, "Seismic displacement of rooftop solar arrays: summary", pages.title)
     sheet.merge_range(1, 0, 1, len(_WIDTHS) - 1, _NOTE, pages.note)
     sheet.set_row(1, LINE_PT * lines_of(_NOTE, sum(_WIDTHS)))
@@ -76,23 +76,23 @@ def _write_row(
     pages: Pages, sheet: Worksheet, row: int, values: Sequence[_Value], heads: Sequence[str]
 ) -> None:
     tall = 1
-    for at, value in enumerate(values):
-        formula, shown = value if isinstance(value, tuple) else ("", value)
+    for column, value in enumerate(values):
+        formula, text = value if isinstance(value, tuple) else ("", value)
         look = pages.text
-        if not isinstance(shown, str):
-            look = pages.lengths if heads[at].endswith("[in]") else pages.ratios
+        if not isinstance(text, str):
+            look = pages.lengths if heads[column].endswith("[in]") else pages.ratios
         if formula:
-            sheet.write_formula(row, at, formula, look, shown)
+            sheet.write_formula(row, column, formula, look, text)
         else:
-            sheet.write(row, at, shown, look)
-        tall = max(tall, lines_of(str(shown), _WIDTHS[at] - 2))
+            sheet.write(row, column, text, look)
+        tall = max(tall, lines_of(str(text), _WIDTHS[column] - 2))
     sheet.set_row(row, LINE_PT * tall)
 
 
 def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
     """Return the rows of the project, the last two with the verdict and what it follows from."""
     project, site = assessment.project.project, assessment.project.site
-    other = worst(check.verdict for check in assessment.checks if not check.arrays)
+    of_project = worst(check.verdict for check in assessment.checks if not check.arrays)
     rows: list[Sequence[_Value]] = [
         ("Project", project.name),
         ("Project number", project.number),
@@ -112,7 +112,7 @@ def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
     )
     return (
         *rows,
-        ("Building, motions and documents", other.value),
+        ("Building, motions and documents", of_project.value),
         ("Verdict", (formula, assessment.verdict.value)),
     )
 
@@ -132,7 +132,7 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
     """Return the clearance with the largest D/C, and the verdict on all."""
     cells = Cells(GAPS, TOP, TOP + len(rows) - 1)
     ratios = [GAPS.printed(row, "demand_capacity") for row in rows]
-    known = [each for each in ratios if not isinstance(each, str)]
+    known = [item for item in ratios if not isinstance(item, str)]
     verdicts = [row.gap.verdict for row in rows]
     of_all = next((v for v in (Verdict.NG, Verdict.NONE) if v in verdicts), Verdict.OK)
     formula = (
@@ -141,14 +141,14 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
     )
     if not known:
         return ("none has a required separation", "", "", "", "", "", (formula, of_all.value))
-    at = ratios.index(max(known))
+    worst_place = ratios.index(max(known))
     place = f"MATCH(MAX({cells.demand_capacity}),{cells.demand_capacity},0)"
 
     def found(name: str) -> _Value:
-        return f"=INDEX({cells.printed(name)},{place})", GAPS.printed(rows[at], name)
+        return f"=INDEX({cells.printed(name)},{place})", GAPS.printed(rows[worst_place], name)
 
-    array, other = (f"INDEX({cells.printed(name)},{place})" for name in ("array", "object"))
-    between = f'={array}&" to "&{other}', " to ".join(rows[at].gap.between)
+    array, across = (f"INDEX({cells.printed(name)},{place})" for name in ("array", "object"))
+    between = f'={array}&" to "&{across}', " to ".join(rows[worst_place].gap.between)
     names = ("neighbor", "provided_m", "required_m", "demand_capacity")
     return (between, *map(found, names), "", (formula, of_all.value))
 
@@ -157,8 +157,8 @@ def _governing(assessment: Assessment) -> Iterator[Sequence[_Value]]:
     """Yield the satisfied check with the largest ratio of each kind but clearances."""
     for check in largest(assessment):
         if check.id != "clearance":
-            shown = float(ratio(check.ratio))
-            yield (*_said(assessment, check), shown, check.clause, check.verdict.value)
+            rounded = float(ratio(check.ratio))
+            yield (*_said(assessment, check), rounded, check.clause, check.verdict.value)
 
 
 def _open(assessment: Assessment) -> Iterator[Sequence[_Value]]:

@@ -42,10 +42,12 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     absent |= set() if assessment.neighbors else {"Neighbors"}
     absent |= set() if assessment.has_motions else OF_MOTIONS
     project = assessment.project.project
-    of = f"revision {project.revision}, hash {fingerprint(assessment.source, assessment.shaking)}"
-    title = f"{project.number} {project.name}, {of}"
+    revision = (
+        f"revision {project.revision}, hash {fingerprint(assessment.source, assessment.shaking)}"
+    )
+    title = f"{project.number} {project.name}, {revision}"
     with text_workbook(buffer, project.date, title) as workbook:
-        head = f"{shortened(project.number, 24)}   {shortened(project.name, 60)}   {of}"
+        head = f"{shortened(project.number, 24)}   {shortened(project.name, 60)}   {revision}"
         # An ampersand begins a code in the header of a page.
         head = head.replace("&", "&&")
         pages = Pages(workbook, head, is_a4=not assessment.project.us_first)

@@ -13,8 +13,8 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from report.project.model.finding import Finding
-from report.project.model.place import Place
-from report.project.read.linked_files import path_beside
+from report.project.model.input_rows import Place
+from report.project.read.documents import path_beside
 from report.project.read.typed_text import separator
 from report.study.read_study import StudySheet
 from report.study.study_input import Intensity

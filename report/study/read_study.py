@@ -10,13 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
-from report.project.check.input_columns import column, repeated
 from report.project.model.choices import RecordedAt, UnitsFirst
 from report.project.model.finding import Finding
-from report.project.model.input_rows import InputRow, Inputs
-from report.project.model.place import Place, Where
+from report.project.model.input_rows import InputRow, Inputs, Place, Where, column, repeated
 from report.project.read.archive import open_book
-from report.project.read.locate_cell import is_absent
+from report.project.read.locate import is_absent
 from report.project.read.read import read_as
 from report.project.read.workbook_data import SheetOf
 from report.project.write.template import book_of, saved

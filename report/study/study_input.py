@@ -18,6 +18,7 @@ from pydantic import Field
 
 from report.project.model.choices import (
     AccelUnit,
+    Frozen,
     Id,
     Polarity,
     Positive,
@@ -28,7 +29,6 @@ from report.project.model.choices import (
     UnitsFirst,
 )
 from report.project.model.friction_report import FrictionTestRow
-from report.project.model.frozen import Frozen
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 

@@ -18,8 +18,8 @@ import numpy as np
 from report.motions.components import Components, RecordFile, read_components
 from report.motions.history import SIGNS
 from report.project.model.finding import Finding
+from report.project.model.input_rows import Place
 from report.project.model.motion_input import MotionInput
-from report.project.model.place import Place
 from report.project.workbook import SECTION
 from report.study.read_study import StudySheet
 from report.study.study_input import MOST_SAMPLES, Intensity, StudyBuilding, StudyInput

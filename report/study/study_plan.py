@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from report.project.model.finding import Finding
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.unseen import warnings
 from report.study.hazard_curve import hazard_curves
 from report.study.read_study import StudySheet

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import datetime as dt
 
-from report.project.workbook.entries import Entry
-from report.project.workbook.sections import block, table
+from report.project.workbook.entries import Entry, block, table
 from report.project.workbook.site_sheets import FRICTION_RUNS
 from report.study.study_input import (
     Hazard,

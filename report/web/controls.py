@@ -13,7 +13,7 @@ from report.assessment.design.friction import mu_words
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import Polarity, RuleSetName, UnitsFirst
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.what_if import retyped
 from report.project.read.workbook_data import Sheet
 from report.text.grouping import ids_by

@@ -14,13 +14,13 @@ from typing import Any
 from openpyxl.utils import coordinate_to_tuple
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.check.problem_lines import grouped, line_of, listed
-from report.project.model.placed import SIDES
+from report.project.check.finding_lines import grouped, line_of, listed
+from report.project.model.shapes import SIDES
 from report.project.read.archive import OpenBook, open_book
-from report.project.read.locate_table import find_table
+from report.project.read.locate import find_table
 from report.project.read.positions import CellPosition, found_at
 from report.project.workbook import SECTIONS
-from report.project.workbook.sections import SheetSection
+from report.project.workbook.entries import SheetSection
 from report.text.typed_letters import cut
 from solver.errors import InputError, Problem
 

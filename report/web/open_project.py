@@ -16,9 +16,8 @@ from typing import Any
 from report.assessment.assess import Extent, assess
 from report.assessment.assessment import Assessment
 from report.motions.components import Components
-from report.motions.prepare import Shaking, read_records, shaking
-from report.motions.stiff_links import stiff_links
-from report.project.model.place import Place
+from report.motions.prepare import Shaking, read_records, shaking, stiff_links
+from report.project.model.input_rows import Place
 from report.project.read.read import read
 from report.project.read.what_if import Typed, retyped
 from report.project.read.workbook_data import Sheet

@@ -17,12 +17,12 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
 
-from report.project.write import example
+from report.project.write import template
 from report.web.plan import USUAL_PX
 from report.web.processes import WorkerProcess
 from report.web.worker import Packages, begun
 
-EXAMPLE, EXAMPLE_NAME = example.EXAMPLE / "input.xlsx", "example"
+EXAMPLE, EXAMPLE_NAME = template.EXAMPLE / "input.xlsx", "example"
 
 MOST_OPEN = 8
 """Projects that stay open beside the example; the one opened first is closed for another one."""

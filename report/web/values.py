@@ -9,12 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from report.project.model.array import Array, slope_rad
+from report.project.model.array import Array, coefficients, slope_rad
 from report.project.model.choices import Scaling, SlopeUnit
-from report.project.model.links import coefficients
-from report.project.model.place import Place
-from report.project.model.placed import SIDES
-from report.project.model.shapes import Rectangle, Shape, gap_m
+from report.project.model.input_rows import Place
+from report.project.model.shapes import SIDES, Rectangle, Shape, gap_m
 from report.project.read.what_if import Typed, size_of_unit
 from report.project.read.workbook_data import Sheet
 from solver.model import INCH_M

@@ -14,9 +14,15 @@ from functools import partial
 from typing import NamedTuple
 
 from report.assessment.design.rule_set import OVERRIDDEN
-from report.assessment.design.verdict import BY_CONSEQUENCE, Verdict, severity, worst
-from report.assessment.design.words import NO_DESIGN, NOT_GIVEN
-from report.project.model.place import Place
+from report.assessment.design.verdict import (
+    BY_CONSEQUENCE,
+    NO_DESIGN,
+    NOT_GIVEN,
+    Verdict,
+    severity,
+    worst,
+)
+from report.project.model.input_rows import Place
 from report.text.amounts import Amount
 from report.text.units import nan_is_worst
 from solver.rules.limit import PROGRAM, Consequence
@@ -184,9 +190,9 @@ def by_ratio(checks: Iterable[Check]) -> Sequence[Check]:
 
 def verdict_of(checks: Iterable[Check], array: str = "") -> Verdict:
     """Return the verdict on an array, or on the project: the worst of its checks."""
-    found = worst(check.verdict for check in checks if not array or array in check.arrays)
-    is_project = not array and found is Verdict.CONDITION
-    return Verdict.CONDITIONS if is_project else max(found, Verdict.OK, key=severity)
+    worst_verdict = worst(check.verdict for check in checks if not array or array in check.arrays)
+    is_project = not array and worst_verdict is Verdict.CONDITION
+    return Verdict.CONDITIONS if is_project else max(worst_verdict, Verdict.OK, key=severity)
 
 
 class StatedParts(NamedTuple):
@@ -201,5 +207,5 @@ def stated(section: str, **parts: tuple[str, object]) -> StatedParts:
     values = [str(value) for _, value in parts.values() if value]
     missing = {field: name for field, (name, value) in parts.items() if not value}
     lacks = [f"{', '.join(missing.values())} missing"] if missing else []
-    found = "; ".join([*values, *lacks]) if values else NOT_GIVEN
-    return StatedParts(found, tuple(Place(section, 0, field) for field in missing))
+    stated_text = "; ".join([*values, *lacks]) if values else NOT_GIVEN
+    return StatedParts(stated_text, tuple(Place(section, 0, field) for field in missing))

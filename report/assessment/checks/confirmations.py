@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from report.assessment.checks.check import Actor, Check, condition, stated
-from report.assessment.design.words import NOT_GIVEN
+from report.assessment.design.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from solver.rules.provisions import RULE_SETS, review_lifts_slope
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from report.assessment.checks.array_capacities import slack_check
+from report.assessment.checks.capacities import slack_check
 from report.assessment.checks.check import THIS_PROGRAM, Check, Sense
 from report.assessment.design.routes import Route, lacking_motions, statistic_basis
 from report.text.amounts import Amount, capacity, demand
@@ -153,14 +153,14 @@ def _tipping(item: ArrayAssessment) -> Check:
 def of_links(linked: LinkedArray) -> Check:
     """Return whether one rigid block is adequate for an array, where the workbook asks."""
     design, estimated_m = linked.design, linked.estimated_m
-    found: Amount | str = demand(estimated_m, Quantity.DISPLACEMENT)
+    found_value: Amount | str = demand(estimated_m, Quantity.DISPLACEMENT)
     note = "one rigid block does not slide in one axis" if math.isinf(estimated_m) else ""
     if not linked.is_final:
-        found = "not every block comes to rest"
+        found_value = "not every block comes to rest"
         lost = (motion for motion in linked.motions if not all(run.is_final for run in motion.runs))
         note = ranged(motion.motion.id for motion in lost)
     elif math.isnan(estimated_m):
-        found = "none"
+        found_value = "none"
     has_limit = not math.isnan(linked.most_m)
     limit = capacity(linked.most_m, Quantity.DISPLACEMENT)
     return Check(
@@ -168,7 +168,7 @@ def of_links(linked: LinkedArray) -> Check:
         title="Design displacement as a row of linked blocks",
         subject=design.id,
         arrays=(design.id,),
-        found=found,
+        found=found_value,
         note=note,
         limit=limit if has_limit else "that of one rigid block",
         sense=Sense.AT_MOST if has_limit else Sense.STATED,

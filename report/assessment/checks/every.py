@@ -8,18 +8,13 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from report.assessment.checks import (
-    array_capacities,
+    capacities,
     clearance_checks,
     confirmations,
     displacement,
-    existing_roof,
     fire_access,
     friction_evidence,
-    less_friction,
-    motion_limits,
-    overrides,
-    records,
-    roof_plan,
+    motion_checks,
     rule_limits,
     seismic_parameters,
 )
@@ -47,20 +42,20 @@ def every(done: Assessment) -> tuple[Check, ...]:
     data, by_runs = done.project, {item.id for item in done.arrays if item.is_by_runs}
     routes = [item.limits for item in done.arrays]
     has_variations = done.at_reduced_friction is not None and done.has_motions
-    found = (
+    checks = (
         *before_runs(data, done.rules, done.shaking, done.acceptance, routes, by_runs),
         *chain.from_iterable(displacement.of_array(done, item) for item in done.arrays),
         *map(displacement.of_links, done.linked),
         *clearance_checks.of_clearances(done),
         *fire_access.of_pathways(data, done.pairs),
-        *roof_plan.of_neighbors(done),
+        *clearance_checks.of_neighbors(done),
         *noted(
             friction_evidence.of_velocities(data, done.arrays) if has_variations else (),
             by_runs,
         ),
-        *less_friction.of_less(done),
+        *friction_evidence.of_less(done),
     )
-    return tuple(_with_otherwise(found, done.otherwise))
+    return tuple(_with_otherwise(checks, done.otherwise))
 
 
 def _with_otherwise(checks: Sequence[Check], otherwise: Mapping[str, str]) -> Iterator[Check]:
@@ -93,16 +88,16 @@ def before_runs(
     for index, (id, item) in enumerate(zip(ids, routes, strict=True)):
         yield from rule_limits.of_array(item, index, id, has_motions=bool(shaking.motions))
     yield confirmations.of_building_code(data)
-    yield from roof_plan.of_roof(data)
-    yield from existing_roof.of_existing_roof(data)
+    yield from clearance_checks.of_roof(data)
+    yield from capacities.of_existing_roof(data)
     yield from noted(confirmations.of_confirmations(data), by_runs)
-    yield from overrides.of_overrides(data)
+    yield from rule_limits.of_overrides(data)
     yield from seismic_parameters.of_site(data)
-    yield from noted(records.of_records(data, shaking.prepared), by_runs)
+    yield from noted(motion_checks.of_records(data, shaking.prepared), by_runs)
     yield from friction_evidence.of_tests(data)
-    yield from noted(motion_limits.of_acceptance(acceptance, analyzed, shaking), by_runs)
+    yield from noted(motion_checks.of_acceptance(acceptance, analyzed, shaking), by_runs)
     for array in data.arrays:
-        yield from array_capacities.before_runs(data, array, interconnection_n(data, rules, array))
+        yield from capacities.before_runs(data, array, interconnection_n(data, rules, array))
 
 
 def noted(checks: Iterator[Check] | tuple[()], by_runs: Collection[str]) -> Iterator[Check]:

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING
 
 from report.assessment.checks.check import Actor, Check, Sense, condition
 from report.assessment.design.clearances import slides_m
-from report.assessment.design.words import NO_DESIGN, NOT_GIVEN, STAYS
+from report.assessment.design.verdict import NO_DESIGN, NOT_GIVEN, STAYS
 from report.assessment.plan.neighbors import direction_of
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import Direction
-from report.project.model.place import Place
-from report.project.model.placed import SIDES
-from report.project.model.shapes import around, gap_m
+from report.project.model.input_rows import Place
+from report.project.model.shapes import SIDES, around, gap_m
 from report.text.amounts import Amount, capacity, demand, entered
 from report.text.counts import numbered
 from report.text.names import ranged
@@ -35,17 +34,17 @@ def pathway_check(done: Assessment, gap: ClearanceCheck, pathway_m: float, index
     row, us_first = gap.clearance, done.project.us_first
     slides = slides_m(done.arrays, gap)
     left_m = row.provided_m - math.fsum(slides)
-    found: Amount | str = capacity(left_m, Quantity.SIZE, gap.design_mark)
+    found_value: Amount | str = capacity(left_m, Quantity.SIZE, gap.design_mark)
     slid = (pair(m, Quantity.SIZE, us_first, no_less) for m in slides)
     terms = " − ".join((pair(row.provided_m, Quantity.SIZE, us_first, no_more), *slid))
     if math.isnan(left_m):
-        found, terms = NO_DESIGN, ""
+        found_value, terms = NO_DESIGN, ""
     return Check(
         id="fire_pathway",
         title="Fire pathway after displacement",
         subject=f"{row.array} to {row.object}",
         arrays=(row.array,),
-        found=found,
+        found=found_value,
         note=terms,
         limit=demand(pathway_m, Quantity.SIZE),
         sense=Sense.AT_LEAST,
@@ -147,7 +146,7 @@ def _undivided(arrays: Sequence[Array], lane_m: float) -> Sequence[Sequence[Arra
         joined = [array]
         for group in groups:
             # Between shapes, not their boxes: a ring may surround an array without being near it.
-            if any(gap_m(array.shape, other.shape) < lane_m - _ROUNDING_M for other in group):
+            if any(gap_m(array.shape, neighbor.shape) < lane_m - _ROUNDING_M for neighbor in group):
                 joined += group
             else:
                 apart.append(group)

@@ -1,4 +1,4 @@
-"""Friction tests on file, and at the velocities of sliding."""
+"""Friction tests on file and at the velocities of sliding, and what less friction would change."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from report.assessment.checks.check import VELOCITY_ROW, Actor, Check, Sense, condition, stated
+from report.assessment.design.friction import SHIFT
 from report.assessment.design.tested_friction import (
     LEAST_RUNS,
     MOST_BEYOND,
@@ -16,17 +17,19 @@ from report.assessment.design.tested_friction import (
     runs_by_velocity,
     tested,
 )
-from report.assessment.design.words import NOT_GIVEN
+from report.assessment.design.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.text.amounts import capacity, compared_pairs, demand, entered
 from report.text.grouping import grouped_by
-from report.text.units import Quantity
+from report.text.units import Quantity, number
 from solver.friction_tests import Series, Surface
+from solver.rules.limit import Consequence
 
 if TYPE_CHECKING:
+    from report.assessment.assessment import Assessment
     from report.assessment.design.arrays import ArrayAssessment
-    from report.assessment.design.velocity_check import VelocityCheck
+    from report.assessment.design.tested_friction import VelocityCheck
 
 
 _row = partial(condition, clause="friction tests", actor=Actor.LABORATORY)
@@ -116,7 +119,7 @@ def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterat
 def of_velocities(data: ProjectInput, arrays: Sequence[ArrayAssessment]) -> Iterator[Check]:
     """Yield for each array whether friction beyond the velocities tested is shown by tests."""
     # What knows of runs loads the compiler: the other checks here do without.
-    from report.assessment.design.velocity_check import velocity_check
+    from report.assessment.design.tested_friction import velocity_check
 
     for item in arrays:
         yield _velocity(item.id, velocity_check(data, item), data.us_first)
@@ -140,15 +143,15 @@ def _velocity(array_id: str, check: VelocityCheck, us_first: bool) -> Check:
 def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
     """Return what is compared: the sliding velocity, or the friction above the tested range."""
     fastest_mps, tested_mps = check.fastest_mps, check.tested_mps
-    found, tested = (
+    speed, tested = (
         demand(fastest_mps, Quantity.VELOCITY),
         entered(tested_mps, Quantity.VELOCITY),
     )
     if not check.is_beyond:
         if math.isnan(tested_mps):
             return {"found": "does not slide", "limit": "tests at the sliding velocities"}
-        return {"found": found, "limit": tested, "sense": Sense.AT_MOST, "note": "as tested"}
-    velocities = found, tested, Quantity.VELOCITY
+        return {"found": speed, "limit": tested, "sense": Sense.AT_MOST, "note": "as tested"}
+    velocities = speed, tested, Quantity.VELOCITY
     slides, range_text = compared_pairs(*velocities, us_first, is_at_least=False)
     slides = (
         "no velocity from one of the runs"
@@ -167,7 +170,7 @@ def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
     if check.is_far and math.isfinite(fastest_mps) and tested_mps > 0.0:
         limit = capacity(MOST_BEYOND * tested_mps, Quantity.VELOCITY)
         note = f"{'; '.join(notes)}; at most {MOST_BEYOND:g} times as fast"
-        return {"found": found, "limit": limit, "sense": Sense.AT_MOST, "note": note}
+        return {"found": speed, "limit": limit, "sense": Sense.AT_MOST, "note": note}
     if check.is_far or incomplete:
         return {
             "found": "; ".join((slides, *notes)),
@@ -179,3 +182,56 @@ def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
         "sense": Sense.AT_MOST,
         "note": f"μ above the tested range; {slides}, {range_text}",
     }
+
+
+def of_less(done: Assessment) -> Iterator[Check]:
+    """Yield the routes and clearances that are permitted as given, and not with less friction."""
+    reduced = done.at_reduced_friction
+    if reduced is None:
+        return
+    friction = f"{number(100.0 * SHIFT, 0)} % less friction"
+    row = partial(condition, is_satisfied=False, clause="sensitivity", is_capacity=False)
+    changed = [*_routes(done, reduced, friction, row), *_clearances(done, reduced, friction, row)]
+    yield from changed or [
+        row(
+            id="less_friction",
+            title=f"Procedures and clearances with {friction}",
+            found="permitted and satisfied as entered",
+            limit="permitted and satisfied",
+            is_satisfied=True,
+        )
+    ]
+
+
+def _routes(
+    done: Assessment, reduced_assessment: Assessment, friction: str, row: partial[Check]
+) -> Iterator[Check]:
+    for array, reduced in zip(done.arrays, reduced_assessment.arrays, strict=True):
+        if array.is_permitted and not reduced.is_permitted:
+            # No code asks for this margin, and no cell could show it: only a larger coefficient.
+            yield row(
+                id="less_friction",
+                consequence=Consequence.NOTE,
+                title=f"The {array.route} procedure with {friction}",
+                subject=array.id,
+                found=f"not permitted with μ = {number(reduced.array.minimum_mu, 3)}",
+                limit="permitted",
+                remedy=f"The procedure is permitted as entered but not with {friction}.",
+            )
+
+
+def _clearances(
+    done: Assessment, reduced_assessment: Assessment, friction: str, row: partial[Check]
+) -> Iterator[Check]:
+    for gap, short in zip(done.clearances, reduced_assessment.clearances, strict=True):
+        if gap.verdict.is_permitted and not short.verdict.is_permitted:
+            clearance = gap.clearance
+            yield row(
+                id="clearance_less_friction",
+                title=f"Clearance with {friction}",
+                subject=f"{clearance.array} to {clearance.object}",
+                arrays=(clearance.array,),
+                found="not satisfied",
+                limit="satisfied",
+                remedy="Confirm the friction coefficient, or provide more clearance.",
+            )

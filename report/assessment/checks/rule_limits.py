@@ -1,20 +1,26 @@
-"""The limits of the rule set on the building and on each array, of both routes."""
+"""The limits of the rule set on the building and on each array, and what requires less than it."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
-from report.assessment.checks.check import Check, Sense, dagger
+from report.assessment.checks.check import OVERRIDE_ID, Actor, Check, Sense, condition, dagger
 from report.assessment.checks.sentence import words
 from report.assessment.design.routes import Route, RouteLimits, lacking_motions, statistic_basis
+from report.assessment.design.rule_set import OVERRIDDEN, takes_plain_mean
+from report.assessment.design.verdict import STAYS
 from report.project.model import ProjectInput
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
+from report.project.model.options import Override, provision_name, provision_unit
 from report.text.amounts import limit_amounts
+from report.text.letter_case import lowered
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence, Limit, Measure
-from solver.rules.provisions import RuleSet, building_checks
+from solver.rules.provisions import RULE_SETS, RuleSet, building_checks
+from solver.rules.rulesets import ALLOWED, Provision
 
 
 def of_building(data: ProjectInput, rules: RuleSet) -> Iterator[Check]:
@@ -61,14 +67,14 @@ def against_analysis(
 
 def of_limit(limit: Limit, subject: str = "") -> Check:
     """Return a limit of the solver as a check."""
-    found, required = limit_amounts(limit)
+    found_value, required = limit_amounts(limit)
     marks = dagger(limit.provision)
     return Check(
         id=limit.key,
         title=limit.title,
         subject=subject,
         arrays=(subject,) if subject else (),
-        found="no value" if math.isnan(limit.found) else found,
+        found="no value" if math.isnan(limit.found) else found_value,
         limit=replace(required, mark=marks),
         sense=Sense.AT_LEAST if limit.is_at_least else Sense.AT_MOST,
         note=f"permitted: {limit.provision.note}" if limit.passes_by_exception else limit.worst,
@@ -96,3 +102,43 @@ _REMEDIES = {
     "prescriptive_min_mu": "Provide more friction, shown by tests.",
     "analysis_min_motions": "Complete the motions.",
 }
+
+
+def of_overrides(data: ProjectInput) -> Iterator[Check]:
+    """Yield what requires less than the rule set: each override that does, and each departure."""
+    rules = RULE_SETS[data.site.rule_set]
+    for index, row in enumerate(data.overrides):
+        if row.provision in rules.values:
+            yield _override(rules.values[row.provision], index, row)
+    if takes_plain_mean(data):
+        yield _lowering(
+            id="statistic",
+            title="Design value statistic",
+            found=f"{data.options.statistic}{OVERRIDDEN}",
+            limit="statistic of the rule set, with its factor",
+            clause=rules.values["analysis_factor"].clause,
+            is_satisfied=False,
+            places=(Place("options", 0, "statistic"),),
+        )
+
+
+def _override(rule: Provision, index: int, row: Override) -> Check:
+    allowed, unit = ALLOWED[row.provision], provision_unit(row.provision)
+    value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, rule.value))
+    return _lowering(
+        id=OVERRIDE_ID,
+        title=f"Override of the {lowered(provision_name(row.provision))}",
+        found=f"{value}{OVERRIDDEN}, {row.reason}",
+        limit=f"{'≤' if allowed.is_maximum else '≥'} {adopted}",
+        clause=rule.clause,
+        # One on the safe side needs nobody's consent.
+        is_satisfied=not allowed.lowers(row.value, rule.value),
+        places=(Place("overrides", index, "value"),),
+    )
+
+
+_lowering = partial(
+    condition,
+    actor=Actor.JURISDICTION,
+    remedy=f"Obtain the consent of the authority having jurisdiction. {STAYS}",
+)

@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from functools import partial
 
 from report.assessment.checks.check import Actor, Check, condition, stated
-from report.assessment.design.words import NOT_GIVEN
+from report.assessment.design.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.model.site import Site
 from report.text.letter_case import capitalized
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, REFERENCED, HazardBasis
@@ -123,14 +123,14 @@ def _category(site: Site) -> Check:
     lacking = site.sdc_lacks
     needs_s_d1 = site.s_d1 is not None or "S_D1" in lacking
     missing = " and ".join(lacking)
-    found = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
+    found_text = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
     if not lacking:
-        found = f"S_1 = {site.s_1_g:.3f} g"
-        found += "" if site.s_d1 is None else f", S_D1 = {site.s_d1:.3f} g"
+        found_text = f"S_1 = {site.s_1_g:.3f} g"
+        found_text += "" if site.s_d1 is None else f", S_D1 = {site.s_d1:.3f} g"
     return condition(
         id="sdc",
         title="Seismic design category",
-        found=found,
+        found=found_text,
         limit="S_DS, S_1 and S_D1" if needs_s_d1 else "S_DS and S_1",
         clause=site.edition.clause("sdc"),
         is_satisfied=not lacking,
@@ -143,15 +143,15 @@ def _site_class(site: Site) -> Check:
     is_studied = site.hazard is HazardBasis.SITE_SPECIFIC
     # A site-specific analysis has the soil in it: nothing is taken by default.
     is_default = site.assumed_class == BY_DEFAULT and not is_studied
-    found = f"{site.site_class}"
+    found_text = f"{site.site_class}"
     if is_default:
-        found = f"{NOT_GIVEN}: D by default" if site.site_class is None else "D by default"
+        found_text = f"{NOT_GIVEN}: D by default" if site.site_class is None else "D by default"
     elif is_studied:
-        found = "in the site-specific analysis"
+        found_text = "in the site-specific analysis"
     return condition(
         id="site_class",
         title="Site class",
-        found=found,
+        found=found_text,
         limit="determined for the site",
         clause=site.edition.clause("site_class"),
         is_satisfied=not is_default,

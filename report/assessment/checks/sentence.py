@@ -1,13 +1,22 @@
-"""The one sentence that says a check, and its parts for the columns of tables."""
+"""The one sentence that says a check, or several that ask the same, and its parts for tables.
+
+Electrical slack of A1 with D/C 1.02 and of A2 with D/C 1.09 are one check of A1 and A2 with D/C
+1.09; of clearances the worst pair is named, and how many more there are.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Hashable, Iterable, Sequence
+from dataclasses import replace
+from itertools import chain
 
 from report.assessment.checks.check import Check, Sense
 from report.text.amounts import Amount, amount_text, amount_texts
+from report.text.grouping import grouped_by
 from report.text.letter_case import capitalized, lowered
-from report.text.units import Quantity, ratio
+from report.text.names import ranged
+from report.text.units import Quantity, Rounding, nan_is_worst, ratio
 
 # Kinds whose subjects are pairs, which do not count on as A1 to A3 do.
 PAIRS = ("clearance", "neighbors", "fire_pathway")
@@ -19,41 +28,46 @@ def texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, s
     Numbers are rounded to the safe side, and so that their order shows. Where it is not both
     systems, they are in the preferred one alone.
     """
-    found, limit = _texts(check, us_first, is_both=is_both)
+    found_text, limit = _texts(check, us_first, is_both=is_both)
     is_amount = isinstance(check.limit, Amount)
-    return found, f"{check.sense} {limit}" if is_amount else limit
+    return found_text, f"{check.sense} {limit}" if is_amount else limit
 
 
 def found_and_limit(check: Check, us_first: bool) -> tuple[str, str]:
     """Return the same in both systems, what is found with its note."""
-    found, limit = texts(check, us_first)
-    return found + (f" ({check.note})" if check.note else ""), limit
+    found_text, limit = texts(check, us_first)
+    return found_text + (f" ({check.note})" if check.note else ""), limit
 
 
 def sentence(check: Check, us_first: bool) -> str:
     """Return a check in words: of what, what was found, what is required and by which clause."""
-    found, limit = _texts(check, us_first)
+    found_text, limit = _texts(check, us_first)
     heading = f"{check.title}, {check.subject}" if check.subject else check.title
-    found += f" ({check.note})" if check.note else ""
+    found_text += f" ({check.note})" if check.note else ""
     if isinstance(check.limit, Amount):
         limit = f"{check.sense.words} {limit}"
     close = check.to_close  # of a note it says what does not follow
     if check.is_open and close:
         close = f"To close: {lowered(close)}"
-    parts = f"{heading}: {found}.", f"Required: {limit} ({check.clause}).", close, check.otherwise
+    parts = (
+        f"{heading}: {found_text}.",
+        f"Required: {limit} ({check.clause}).",
+        close,
+        check.otherwise,
+    )
     return capitalized(" ".join(filter(None, parts)))
 
 
 def _texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, str]:
-    found, limit = check.found, check.limit
-    if isinstance(found, Amount) and isinstance(limit, Amount):
+    found_value, limit = check.found, check.limit
+    if isinstance(found_value, Amount) and isinstance(limit, Amount):
         is_at_least = check.sense is Sense.AT_LEAST
         if check.sense is Sense.EQUAL:
-            is_at_least = (found.value >= limit.value) is check.is_satisfied
-        return amount_texts(found, limit, us_first, is_at_least=is_at_least, is_both=is_both)
+            is_at_least = (found_value.value >= limit.value) is check.is_satisfied
+        return amount_texts(found_value, limit, us_first, is_at_least=is_at_least, is_both=is_both)
     first, second = (
-        each if isinstance(each, str) else amount_text(each, us_first, is_both=is_both)
-        for each in (found, limit)
+        amount if isinstance(amount, str) else amount_text(amount, us_first, is_both=is_both)
+        for amount in (found_value, limit)
     )
     return first, second
 
@@ -66,7 +80,84 @@ def words(check: Check, array: str = "") -> str:
     if math.isinf(check.ratio) and isinstance(check.found, str):
         return f"{name} ({check.found})"
     if isinstance(check.limit, Amount) and check.limit.quantity is Quantity.COUNT:
-        found, limit = _texts(check, us_first=True)
-        return f"{name} ({found}, {check.sense.words} {limit})"
+        found_text, limit = _texts(check, us_first=True)
+        return f"{name} ({found_text}, {check.sense.words} {limit})"
     has_ratio = check.is_capacity and not math.isnan(check.ratio)
     return f"{name} (D/C {ratio(check.ratio)})" if has_ratio else name
+
+
+def alike(checks: Iterable[Check]) -> Sequence[Check]:
+    """Return checks that ask the same of several subjects as one each, with what each has."""
+
+    def asked(check: Check) -> Hashable:
+        # Of numbers the worst stands for all, whatever each is compared with.
+        limit = "" if isinstance(check.limit, Amount) else check.limit
+        return check.id, check.title, limit, check.clause, check.verdict, check.actor
+
+    return [_as_one(group) for group in grouped_by(checks, asked).values()]
+
+
+def _as_one(group: Sequence[Check]) -> Check:
+    first = group[0]
+    if len(group) == 1:
+        return first
+    worst_one = max(group, key=size)
+    found_value, limit, note = worst_one.found, worst_one.limit, worst_one.note
+    if isinstance(limit, Amount):
+        if any((check.found, check.limit) != (found_value, limit) for check in group):
+            limit = replace(limit, mark=f"{limit.mark} ({worst_one.subject})")
+    elif all(isinstance(check.found, Amount) for check in group):
+        found_value = _apart(group)
+    else:
+        found_value, note = _found(group), ""
+    arrays = dict.fromkeys(chain.from_iterable(check.arrays for check in group))
+    places = dict.fromkeys(chain.from_iterable(check.places for check in group))
+    return replace(
+        worst_one,
+        subject=subjects(group),
+        found=found_value,
+        limit=limit,
+        note=note,
+        arrays=tuple(arrays),
+        remedy=" ".join(dict.fromkeys(check.remedy for check in group)),
+        otherwise=" ".join(dict.fromkeys(c.otherwise for c in group if c.otherwise)),
+        places=tuple(places),
+    )
+
+
+def size(check: Check) -> tuple[float, float]:
+    """Return a sort key, the largest for the worst of checks that ask the same."""
+    # Where none of them is given the largest that is required is shown.
+    limit = check.limit.value if isinstance(check.limit, Amount) else 0.0
+    return nan_is_worst(check.ratio), nan_is_worst(limit)
+
+
+def _apart(group: Sequence[Check]) -> Amount:
+    """Return of amounts that nothing is compared with the one on the safe side."""
+    amounts = [(each.found, each.subject) for each in group if isinstance(each.found, Amount)]
+    is_capacity = amounts[0][0].rounding is Rounding.DOWN
+    found, subject = (min if is_capacity else max)(amounts, key=lambda each: each[0].value)
+    is_one = all(each == found for each, _ in amounts)
+    return found if is_one else replace(found, mark=f"{found.mark} ({subject})")
+
+
+def _found(group: Sequence[Check]) -> str:
+    """Return in words what is found: what all share is said once."""
+    all_parts = [
+        [*str(check.found).split("; "), *([check.note] if check.note else [])] for check in group
+    ]
+    shared = [part for part in all_parts[0] if all(part in parts for parts in all_parts)]
+    own = grouped_by(
+        zip(group, all_parts, strict=True),
+        lambda each: ", ".join(part for part in each[1] if part not in shared),
+    )
+    others = [f"{subjects([check for check, _ in of])}: {text}" for text, of in own.items() if text]
+    return "; ".join([*shared, *others])
+
+
+def subjects(group: Sequence[Check]) -> str:
+    """Return what checks of one kind are of: `A1 to A3`, or the worst pair and how many more."""
+    names = list(dict.fromkeys(check.subject for check in group))
+    if group[0].id not in PAIRS or len(names) == 1:
+        return ranged(names)
+    return f"{max(group, key=size).subject} and {len(names) - 1} more"

@@ -1,5 +1,8 @@
 """One array under all motions, checked against the rule set: its design displacement.
 
+Seven PRDs of 0.40 m in the mean give 1.1 x 0.40 = 0.44 m by PV1-2012. Beside a prescriptive value
+of 1.00 m the floor without peer review, half of it, governs: 0.50 m.
+
 The PRDs of its runs give a value from analysis by a statistic of the rule set. The design
 displacement is that value, or the floor where that is larger and no peer review removes it; by the
 prescriptive route it is the prescriptive value, or the largest PRD where that is larger.

@@ -13,9 +13,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from report.assessment.design.gaps import ComparedGap
 from report.assessment.design.rule_set import mark_of
-from report.assessment.design.separation import neighbor_across
+from report.assessment.design.separation import ComparedGap, neighbor_across
 from report.assessment.design.verdict import Verdict
 from report.project.model import ProjectInput
 from report.project.model.array import Array
@@ -162,4 +161,4 @@ def marked_gap(
 
 def beside(arrays: Sequence[ArrayAssessment], row: Clearance) -> Sequence[ArrayAssessment]:
     """Return the arrays on either side of a clearance, that of its row first."""
-    return [by_id(arrays, row.array), *(other for other in arrays if other.id == row.object)]
+    return [by_id(arrays, row.array), *(item for item in arrays if item.id == row.object)]

@@ -1,4 +1,7 @@
-"""The separation that a rule set requires beside an array, by what is across the gap.
+"""The separation that a rule set requires beside an array, and a gap that is compared with it.
+
+By PV1-2012 a slide of 0.50 m with I = 1 asks for 0.25 m to an array that slides alike, 0.50 m to an
+object or another array, and 0.75 m to an edge without a parapet.
 
 A factor times the design displacement, times an importance factor where that is not in the
 displacement: I_e at roof edges, elsewhere the larger I_p of the array and what is across the gap.
@@ -7,6 +10,7 @@ displacement: I_e at roof edges, elsewhere the larger I_p of the array and what 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -14,11 +18,57 @@ from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import ObjectKind
 from report.project.model.roof import RoofObject
+from report.text.amounts import capacity, demand, shown_in_order
+from report.text.units import Show, ratio
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor, RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.design.arrays import ArrayAssessment
+
+
+class ComparedGap(ABC):
+    """A gap whose required separation is compared with what is there, given or in plan."""
+
+    __slots__ = ()
+    required_m: float  # required separation [m]; NaN without a permitted displacement
+    mark: str  # of the required separation
+
+    @property
+    @abstractmethod
+    def between(self) -> tuple[str, str]:
+        """What is on either side."""
+
+    @property
+    @abstractmethod
+    def provided_m(self) -> float:
+        """What is there [m]."""
+
+    @property
+    def demand_capacity(self) -> float:
+        """Required / provided separation; NaN without a required one."""
+        if math.isnan(self.required_m):
+            return math.nan
+        return self.required_m / self.provided_m if self.provided_m > 0.0 else math.inf
+
+    @property
+    def ratio_words(self) -> str:
+        """Required / provided separation for print, with its mark."""
+        return ratio(self.demand_capacity) + self.mark
+
+    @property
+    def shows(self) -> tuple[Show, Show]:
+        """How what is there and what is required are shown beside each other."""
+        return shown_in_order(capacity(self.provided_m), demand(self.required_m))
+
+    def involves(self, array_id: str) -> bool:
+        """Whether an array is on either side of the gap."""
+        return array_id in self.between
+
+    def across_from(self, array_id: str) -> str:
+        """Return what is on the other side of the gap."""
+        first, second = self.between
+        return first if second == array_id else second
 
 
 # Tolerance [deg] within which two downslope directions are the same. The live formulas of the sheet
@@ -37,15 +87,15 @@ _KINDS = {
 
 
 def neighbor_across(
-    data: ProjectInput, rules: RuleSet, near: Array, other: Array | RoofObject
+    data: ProjectInput, rules: RuleSet, near: Array, across: Array | RoofObject
 ) -> tuple[Neighbor, float]:
     """Return what is across a gap, and the importance factor of the separation."""
-    if isinstance(other, Array):
-        neighbor = Neighbor.LIKE if are_alike(near, other) else Neighbor.UNLIKE
+    if isinstance(across, Array):
+        neighbor = Neighbor.LIKE if are_alike(near, across) else Neighbor.UNLIKE
     else:
-        neighbor = _neighbor(rules, other, near)
+        neighbor = _neighbor(rules, across, near)
     # PV1-2012: I_p of the array or of what stands beside it, whichever is greatest.
-    i_p = max(near.i_p, other.i_p)
+    i_p = max(near.i_p, across.i_p)
     return neighbor, importance_factor(rules, neighbor, i_e=data.site.i_e, i_p=i_p)
 
 
@@ -54,14 +104,14 @@ def separation_m(
     rules: RuleSet,
     design_m: float,
     near: Array,
-    other: Array | RoofObject | None,
+    across: Array | RoofObject | None,
 ) -> float:
     """Return the separation [m] that a design displacement requires; None for a bare roof edge."""
-    if other is None:
+    if across is None:
         neighbor = Neighbor.EDGE
         importance = importance_factor(rules, neighbor, i_e=data.site.i_e, i_p=math.nan)
     else:
-        neighbor, importance = neighbor_across(data, rules, near, other)
+        neighbor, importance = neighbor_across(data, rules, near, across)
     return provisions.required_separation(rules, neighbor, design_m=design_m, importance=importance)
 
 
@@ -75,18 +125,14 @@ def importance_factor(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: fl
 
 def are_alike(first: Array, second: Array) -> bool:
     """Whether two arrays slide alike: construction, slope, friction and downslope direction."""
+    turn = (first.downslope_deg - second.downslope_deg) % 360.0
     return (
         # Arrays of one construction, slope and friction move together under one roof motion.
         first.construction.casefold() == second.construction.casefold()
         and math.isclose(first.slope_rad, second.slope_rad, abs_tol=ALIKE_SLOPE_RAD)
         and first.friction == second.friction
-        and _is_parallel(first, second)
+        and min(turn, 360.0 - turn) <= ALIKE_DEG
     )
-
-
-def _is_parallel(first: Array, second: Array) -> bool:
-    turn = (first.downslope_deg - second.downslope_deg) % 360.0
-    return min(turn, 360.0 - turn) <= ALIKE_DEG
 
 
 def _neighbor(rules: RuleSet, obstacle: RoofObject, array: Array) -> Neighbor:

@@ -1,5 +1,8 @@
 """The runs of friction tests, and the friction of arrays held against them, in words.
 
+Three wet runs of 0.45 in the mean and three dry ones of 0.60: the wet ones govern, and the friction
+of an array is held against 0.45.
+
 Decides nothing: `report.assessment.checks.friction_evidence` does. Read `tested`.
 """
 
@@ -8,15 +11,17 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import chain
 
-from report.assessment.design.words import NOT_GIVEN
-from report.project.check.friction_faults import MU_TOLERANCE
+from report.assessment.design.arrays import ArrayAssessment
+from report.assessment.design.verdict import NOT_GIVEN
+from report.project.check.array_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.text.counts import numbered
 from report.text.grouping import grouped_by
-from report.text.units import Quantity, measured, pair
+from report.text.units import Quantity, Rounding, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction
 
@@ -95,13 +100,13 @@ def _where(tests: Series, us_first: bool) -> str:
 def runs_by_velocity(series: Series, us_first: bool) -> str:
     """Return in words how many runs there are at each velocity."""
     counts = grouped_by(
-        series.repeats, lambda each: (len(each.runs), math.isnan(each.velocity_mps))
+        series.repeats, lambda repeat: (len(repeat.runs), math.isnan(repeat.velocity_mps))
     )
     return ", ".join(
         f"{numbered(count, 'run')} with velocity {NOT_GIVEN}"
         if is_unknown
         else f"{numbered(count, 'run')} at {'each of ' if len(alike) > 1 else ''}"
-        f"{_velocities([each.velocity_mps for each in alike], us_first)}"
+        f"{_velocities([repeat.velocity_mps for repeat in alike], us_first)}"
         for (count, is_unknown), alike in counts.items()
     )
 
@@ -112,3 +117,76 @@ def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
         for unit in (Quantity.VELOCITY.value if us_first else Quantity.VELOCITY.value[::-1])
     )
     return f"{first} ({second})"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VelocityCheck:
+    """The friction of an array beyond the velocities tested."""
+
+    friction: Friction
+    # largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none
+    fastest_mps: float
+    tests: Series | None  # the runs of friction tests that govern for the array, if any
+    is_complete: bool  # whether their report has all runs that are required
+
+    @property
+    def tested_mps(self) -> float:
+        """Largest velocity tested [m/s]; NaN where no test reports one."""
+        return self.tests.velocity_mps if self.tests else math.nan
+
+    @property
+    def minimum_mu(self) -> float:
+        """Smallest friction tested; NaN without tests."""
+        return self.tests.minimum_mu if self.tests else math.nan
+
+    @property
+    def is_beyond(self) -> bool:
+        """Whether the array may slide faster than tested, or no test reports its velocity."""
+        # A run without a velocity, NaN, is beyond; an array that never slides is not.
+        return not self.fastest_mps <= (0.0 if math.isnan(self.tested_mps) else self.tested_mps)
+
+    @property
+    def is_far(self) -> bool:
+        """Whether the array may slide so fast that the tests do not show its friction."""
+        return not self.fastest_mps <= MOST_BEYOND * self.tested_mps
+
+    @property
+    def mu_beyond(self) -> float:
+        """Largest friction used beyond the velocities tested; NaN where none is."""
+        law, ends = self.friction, (self.tested_mps, self.fastest_mps)
+        if not self.is_beyond:
+            return math.nan
+        if any(map(math.isnan, ends)):
+            return max(law.mu_slow, law.mu_fast)
+        return max(map(law.at, ends))
+
+    @property
+    def is_satisfied(self) -> bool:
+        """Whether friction beyond the tests is at most the smallest tested, within rounding.
+
+        The tests must be complete and not far from it: fewer runs are never better.
+        """
+        is_low = self.mu_beyond <= self.minimum_mu + MU_TOLERANCE
+        return not self.is_beyond or (is_low and self.is_complete and not self.is_far)
+
+    @property
+    def beyond_words(self) -> str:
+        """Largest friction used beyond the velocities tested, for print."""
+        return Rounding.UP.text(self.mu_beyond, 3)
+
+    @property
+    def minimum_words(self) -> str:
+        """Smallest friction tested, for print."""
+        return Rounding.DOWN.text(self.minimum_mu, 3)
+
+
+def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck:
+    """Return the friction of an array beyond the velocities tested."""
+    all_series = tested(data)
+    tests = governing(all_series, assessed.array.mu_report) if all_series else None
+    return VelocityCheck(
+        friction=assessed.array.friction,
+        fastest_mps=assessed.fastest_mps,
+        tests=tests,
+        is_complete=tests is not None and is_complete(data, tests.report),
+    )

@@ -1,4 +1,4 @@
-"""Verdicts on a project, an array and a clearance, from the mildest to the most severe."""
+"""Verdicts from the mildest to the most severe, and words that several checks have in common."""
 
 from __future__ import annotations
 
@@ -53,3 +53,10 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
 def severity(verdict: Verdict) -> int:
     """Return a sort key of verdicts, the largest for NG."""
     return list(Verdict).index(verdict)
+
+
+NOT_GIVEN = "not entered"
+NO_DESIGN = "unknown without a permitted design displacement"
+
+# Of a remedy whose outcome the workbook has no cell for: no input takes the condition away.
+STAYS = "It remains listed for the plan checker's decision."

@@ -1,4 +1,8 @@
-"""Sides of the roof outline along which no object is an edge."""
+"""Sides of the roof outline along which no object is an edge.
+
++=== edge ===+........+    the dots are a bare edge: no object stands for this part of the side
+|                     |
+"""
 
 from __future__ import annotations
 

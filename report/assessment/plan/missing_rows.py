@@ -9,13 +9,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from report.assessment.plan.before_runs import design_before_runs_m, larger_m, pairs_before_runs
 from report.assessment.plan.neighbors import (
     NOISE_M,
     REACH_FACTOR,
     NearbyKind,
     PlanNeighbor,
+    design_before_runs_m,
     direction_of,
+    larger_m,
+    pairs_before_runs,
 )
 from report.project.model import ProjectInput
 from report.project.model.choices import ClearanceSource, Direction
@@ -53,9 +55,9 @@ def missing_rows(
     us_first = data.us_first
     pairs = pairs_before_runs(data, sheet.addresses, arrays)
     missing = [near for near in pairs if near.is_missing]
-    new = [near for near in missing if _has_row(near)]
+    gaps = [near for near in missing if _has_row(near)]
     change = WorkbookChange(sheet.book)
-    written = _written(change, data, new)
+    written = _written(change, data, gaps)
     renewed = _renewed(change, data, pairs)
     design_m, basis = design_before_runs_m(data), "the prescriptive displacement"
     if larger := larger_m(arrays, design_m):
@@ -69,7 +71,7 @@ def missing_rows(
         *_differing(pairs, us_first),
         *(f"not added: {near.names}, {_size(near.gap_m, us_first)}; correct the plan, or give the "
           "roof edge as an object" for near in missing if not _has_row(near)),
-        f"{numbered(len(new), 'clearance')} added{f', {len(renewed)} renewed' if renewed else ''},"
+        f"{numbered(len(gaps), 'clearance')} added{f', {len(renewed)} renewed' if renewed else ''},"
         f" {len(data.clearances) - len(renewed)} kept; reach"
         f" {_size(REACH_FACTOR * design_m, us_first, no_less)}, twice {basis}",
     ]  # fmt: skip
@@ -91,17 +93,19 @@ def _size(value_m: float, us_first: bool, show: Show = no_more) -> str:
     return pair(value_m, Quantity.SIZE, us_first, show)
 
 
-def _written(change: WorkbookChange, data: ProjectInput, new: Sequence[PlanNeighbor]) -> list[str]:
+def _written(
+    change: WorkbookChange, data: ProjectInput, added: Sequence[PlanNeighbor]
+) -> list[str]:
     """Put the cells of new rows, and return a line for each row."""
     lines: list[str] = []
     downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
-    for near in new:
+    for near in added:
         row, drawn_m = change.added_row(_KEY), _drawn_m(near, data)
         direction = direction_of(near, downslope_deg[near.array])
         names: dict[str, Value] = {"array": near.array, "object": near.other}
         change.put(_KEY, row, names | _from_drawing(change, direction, drawn_m))
-        at = change.position(_KEY, row, "array").address
-        lines.append(f"{at}: {near.names}, {direction}, {_size(drawn_m, data.us_first)}")
+        address = change.position(_KEY, row, "array").address
+        lines.append(f"{address}: {near.names}, {direction}, {_size(drawn_m, data.us_first)}")
     return lines
 
 
@@ -109,8 +113,8 @@ def _renewed(
     change: WorkbookChange, data: ProjectInput, pairs: Sequence[PlanNeighbor]
 ) -> list[str]:
     """Put the cells of rows from the drawing that differ from the plan; return a line for each."""
-    found = change.table(_KEY).rows
-    rows = {change.position(_KEY, row, "provided_m").address: row for row in found}
+    numbers = change.table(_KEY).rows
+    rows = {change.position(_KEY, row, "provided_m").address: row for row in numbers}
     downslope_deg = {array.id: array.downslope_deg for array in data.arrays}
     lines: list[str] = []
     for near in pairs:
@@ -127,11 +131,11 @@ def _renewed(
             if abs(was.provided_m - drawn_m) > NOISE_M or direction is not was.direction:
                 cells = _from_drawing(change, direction, drawn_m)
                 change.put(_KEY, rows[entered.cell], cells)
-                before, now = (
+                before, after = (
                     _size(value_m, data.us_first) for value_m in (was.provided_m, drawn_m)
                 )
                 lines.append(f"{entered.cell}: {near.names}: {was.direction}, {before}; now"
-                             f" {direction}, {now}")  # fmt: skip
+                             f" {direction}, {after}")  # fmt: skip
     return lines
 
 

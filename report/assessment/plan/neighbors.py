@@ -16,13 +16,15 @@ from enum import StrEnum
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from report.assessment.design.gaps import ComparedGap
+from report.assessment.design.routes import prescriptive_of
+from report.assessment.design.rule_set import rule_set_of
+from report.assessment.design.separation import ComparedGap, separation_m
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.bare_edges import bare_edges
 from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.project.model.choices import Direction, DistanceBasis
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.model.roof import Clearance
 from report.project.model.shapes import Rectangle, Shape, gap_m
 from solver.model import INCH_M
@@ -208,18 +210,18 @@ def _pairs(
         table: addresses.get(Place(table), table.capitalize())
         for table in ("objects", "clearances")
     }
-    for array, other, kind, (near, far), reach_m in _candidates(data, reaches):
+    for array, neighbor, kind, (near, far), reach_m in _candidates(data, reaches):
         is_bare = kind is NearbyKind.BARE_EDGE
         yield PlanNeighbor(
             array=array,
-            other=other,
+            other=neighbor,
             kind=kind,
-            what=kinds.get(other, kind.value),
+            what=kinds.get(neighbor, kind.value),
             near=near,
             far=far,
             gap_m=gap_m(near, far),
             reach_m=reach_m,
-            given=() if is_bare else rows.get(frozenset((array, other)), ()),
+            given=() if is_bare else rows.get(frozenset((array, neighbor)), ()),
             to_add=to_add["objects" if is_bare else "clearances"],
         )
 
@@ -229,12 +231,12 @@ def _candidates(
 ) -> Iterator[tuple[str, str, NearbyKind, tuple[Shape, Shape], float]]:
     """Yield each array with what may be near it: their names, its kind, their shapes, reach [m]."""
     arrays = [(array.id, array.shape, reach_m) for array, reach_m in reaches]
-    others = [(row.id, NearbyKind.OBJECT, row.placed) for row in data.objects if row.placed]
-    others += [(f"the {e.name}", NearbyKind.BARE_EDGE, e.line) for e in bare_edges(data)]
+    candidates = [(row.id, NearbyKind.OBJECT, row.placed) for row in data.objects if row.placed]
+    candidates += [(f"the {e.name}", NearbyKind.BARE_EDGE, e.line) for e in bare_edges(data)]
     for (a, near, reach_m), (b, far, other_m) in combinations(arrays, 2):
         yield a, b, NearbyKind.ARRAY, (near, far), max(reach_m, other_m)
     for a, near, reach_m in arrays:
-        for name, kind, far in others:
+        for name, kind, far in candidates:
             yield a, name, kind, (near, far), reach_m
 
 
@@ -274,3 +276,34 @@ def direction_of(near: PlanNeighbor, downslope_deg: float) -> Direction:
         if min(far) - max(near_end) >= near.gap_m - NOISE_M > 0.0:
             return direction
     return Direction.ANY
+
+
+def pairs_before_runs(
+    data: ProjectInput, addresses: Mapping[Place, str], arrays: Sequence[ArrayAssessment] = ()
+) -> tuple[PlanNeighbor, ...]:
+    """Return the pairs of the plan as a package has them at the prescriptive displacement."""
+    # Of arrays that have been run, larger design displacements count.
+    rules, least_m = rule_set_of(data), design_before_runs_m(data)
+    slides = {array.id: least_m for array in data.arrays} | larger_m(arrays, least_m)
+    known = {array.id: array for array in data.arrays}
+    rows = {item.id: item for item in data.objects} | known
+
+    def required(near: PlanNeighbor) -> tuple[float, str]:
+        design_m = max(slides[near.array], slides.get(near.other, 0.0))
+        across = None if near.kind is NearbyKind.BARE_EDGE else rows[near.other]
+        return separation_m(data, rules, design_m, known[near.array], across), ""
+
+    reaches = [(array, REACH_FACTOR * slides[array.id]) for array in data.arrays]
+    return plan_pairs(data, reaches, addresses, required)
+
+
+def design_before_runs_m(data: ProjectInput) -> float:
+    """Return the design displacement that is taken before any run [m]: the prescriptive one."""
+    # No floor on the displacement from analysis exceeds it, overridden or not.
+    return prescriptive_of(data, rule_set_of(data)).value_m
+
+
+def larger_m(arrays: Sequence[ArrayAssessment], least_m: float) -> dict[str, float]:
+    """Return the permitted displacements of arrays that are larger than one [m]."""
+    # NaN, of a displacement that is not permitted, is not larger.
+    return {array.id: array.permitted_m for array in arrays if array.permitted_m > least_m}

@@ -3,7 +3,7 @@
 A clearance that lacks 0.53 m: move the array 0.53 m away along one axis of the plan, where the plan
 has room, or provide 0.53 m more where it has no place in plan.
 
-Assesses nothing: `report.assessment.remedies.remedies` does. Read `moves`.
+Assesses nothing: `report.assessment.remedies.remedy` does. Read `moves`.
 """
 
 from __future__ import annotations
@@ -15,13 +15,12 @@ from operator import itemgetter
 
 from report.assessment.assessment import Assessment
 from report.assessment.design.clearances import ClearanceCheck
-from report.assessment.design.gaps import ComparedGap
+from report.assessment.design.separation import ComparedGap
 from report.assessment.plan.bare_edges import compass
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.project.model import ProjectInput
-from report.project.model.placed import SIDES
 from report.project.model.roof import Clearance
-from report.project.model.shapes import Point, Polygon, Rectangle, Shape, gap_m
+from report.project.model.shapes import SIDES, Point, Polygon, Rectangle, Shape, gap_m
 from report.text.units import Quantity, no_less, pair, round_up
 
 _NOISE_M = 1e-8  # a length that is rounded up is no less than what it is rounded from
@@ -67,9 +66,10 @@ def _toward(dx: float, dy: float, north_deg: float) -> str:
 def _has_room(assessment: Assessment, name: str, moved: Shape) -> bool:
     """Whether no pair of the plan comes nearer than is required, as far as that is known."""
     near = (pair for pair in assessment.pairs if pair.involves(name))
-    others = ((pair, pair.far if pair.array == name else pair.near) for pair in near)
+    neighbors = ((pair, pair.far if pair.array == name else pair.near) for pair in near)
     return not any(
-        gap_m(moved, other) < min(pair.required_m, pair.gap_m) - _NOISE_M for pair, other in others
+        gap_m(moved, shape) < min(pair.required_m, pair.gap_m) - _NOISE_M
+        for pair, shape in neighbors
     )
 
 
@@ -77,11 +77,11 @@ def _ways(
     shapes: Mapping[str, Shape], between: tuple[str, str], lack_m: float
 ) -> Iterator[tuple[float, str, Point]]:
     """Yield the length of each move along an axis of the plan that gives what lacks [m]."""
-    for own, other in (between, between[::-1]):
+    for moving, fixed in (between, between[::-1]):
         for way in ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)):
-            length_m = _length_m(shapes[own], shapes[other], way, lack_m)
+            length_m = _length_m(shapes[moving], shapes[fixed], way, lack_m)
             if not math.isnan(length_m):
-                yield length_m, own, way
+                yield length_m, moving, way
 
 
 def _length_m(near: Shape, far: Shape, way: Point, lack_m: float) -> float:
@@ -120,10 +120,10 @@ def _moved(data: ProjectInput, *, name: str, by: Point) -> ProjectInput:
     before, after = shapes[name], shifted(shapes[name], by)
 
     def provided(row: Clearance) -> Clearance:
-        other = row.object if row.array == name else row.array
-        if name not in (row.array, row.object) or other not in shapes:
+        opposite = row.object if row.array == name else row.array
+        if name not in (row.array, row.object) or opposite not in shapes:
             return row
-        change_m = gap_m(after, shapes[other]) - gap_m(before, shapes[other])
+        change_m = gap_m(after, shapes[opposite]) - gap_m(before, shapes[opposite])
         return row.model_copy(update={"provided_m": row.provided_m + change_m})
 
     sides = {side: getattr(after, side) for side in SIDES} if isinstance(after, Rectangle) else {}

@@ -8,12 +8,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from report.assessment.assessment import Assessment
-from report.assessment.remedies.remedies import Remedies, remedies
-from report.assessment.support.building_variations import Variations, building_variations
-from report.assessment.support.filter_effect import Beyond, beyond_corners
+from report.assessment.remedies.remedy import Remedies, remedies
+from report.assessment.support.further_runs import (
+    Beyond,
+    Cumulative,
+    Variations,
+    beyond_corners,
+    building_variations,
+    cumulative,
+)
 from report.assessment.support.input_cases import InputCase, cases
 from report.assessment.support.shifted_friction import Accuracy, accuracy
-from report.assessment.support.smaller_events import Cumulative, cumulative
 from report.assessment.support.spectra import Spectra, spectra
 from report.assessment.support.uncertainty import Uncertainty, uncertainty
 from solver.model import SlideHistory

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from report.assessment.assessment import Assessment
-from report.assessment.checks.array_capacities import slack_check
+from report.assessment.checks.capacities import slack_check
 from report.assessment.checks.clearance_checks import clearance_check
 from report.assessment.checks.sentence import words
 from report.assessment.design.arrays import ArrayAssessment
@@ -15,7 +15,7 @@ from report.assessment.design.clearances import ClearanceCheck, by_id, with_disp
 from report.assessment.design.friction import coefficient
 from report.assessment.design.routes import NOT_PERMITTED, Route
 from report.assessment.design.verdict import Verdict
-from report.assessment.support.building_variations import Variations
+from report.assessment.support.further_runs import Variations
 from report.text.units import Quantity, nan_is_worst, no_less, number, pair
 
 
@@ -60,8 +60,8 @@ def building_case(assessment: Assessment, variations: Variations) -> InputCase |
     # Such a design displacement does not follow from one value of the analysis.
     if not variations or array.route is not Route.ANALYSIS:
         return None
-    (used, _), *others = variations
-    building, value = max(others, key=lambda pair: nan_is_worst(pair[1].value_m))
+    (used, _), *variants = variations
+    building, value = max(variants, key=lambda pair: nan_is_worst(pair[1].value_m))
     design_m = math.nan if math.isnan(value.value_m) else max(value.value_m, array.floor_m)
     if not nan_is_worst(design_m) > array.design_m:
         return None
@@ -73,8 +73,8 @@ def building_case(assessment: Assessment, variations: Variations) -> InputCase |
     )
     farther = replace(array, analysis=value, design_m=design_m)
     slides = {array.id: farther.displacement}
-    given = assessment.gaps_of(array.id)
-    gaps = [with_displacements(assessment, slides, gap) for gap in given]
+    entered_gaps = assessment.gaps_of(array.id)
+    gaps = [with_displacements(assessment, slides, gap) for gap in entered_gaps]
     return InputCase(array=farther, changed=changed, gaps=gaps)
 
 
@@ -82,11 +82,11 @@ def cases(assessment: Assessment, variations: Variations) -> Iterator[InputCase]
     """Yield what would change the verdict on an array or exceed its prescriptive displacement."""
     of_building = building_case(assessment, variations)
     for case in (*_by_velocity(assessment), *([of_building] if of_building else [])):
-        given = by_id(assessment.arrays, case.array.id)
+        entered = by_id(assessment.arrays, case.array.id)
         most_m = case.array.prescriptive.value_m
-        is_short = bool(case.short) and any(gap.ok for gap in assessment.gaps_of(given.id))
-        lacks_slack = case.array.lacks_slack and not given.lacks_slack
-        is_farther = given.design_m <= most_m < nan_is_worst(case.array.design_m)
+        is_short = bool(case.short) and any(gap.ok for gap in assessment.gaps_of(entered.id))
+        lacks_slack = case.array.lacks_slack and not entered.lacks_slack
+        is_farther = entered.design_m <= most_m < nan_is_worst(case.array.design_m)
         if is_short or lacks_slack or is_farther:
             yield case
 

@@ -1,17 +1,22 @@
-"""The clearances between shapes in plan, to be drawn."""
+"""What the plan draws between shapes: clearances, and the distance to keep clear of an array."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from report.assessment.assessment import Assessment
+from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.clearances import ClearanceCheck
+from report.assessment.design.rule_set import mark_of
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.project.model.choices import ObjectKind
 from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Shape, closest
+from solver.model import INCH_M
+from solver.rules import provisions
 from solver.rules.provisions import Neighbor
 
 
@@ -52,13 +57,13 @@ def plan_gaps(assessment: Assessment) -> Iterator[PlanGap]:
     gaps: list[tuple[int, ClearanceCheck | PlanNeighbor]]
     gaps = [*enumerate(assessment.clearances, start=1)]
     for number, gap in (*gaps, *((0, missing) for missing in assessment.missing_gaps)):
-        array, other = gap.between
-        far = gap.far if isinstance(gap, PlanNeighbor) else shapes.get(other)
+        array, across = gap.between
+        far = gap.far if isinstance(gap, PlanNeighbor) else shapes.get(across)
         if far is not None:  # an object may have no place in plan
             yield PlanGap(
                 number=number,
                 array=array,
-                other=other,
+                other=across,
                 near=shapes[array],
                 far=far,
                 provided_m=gap.provided_m,
@@ -75,3 +80,34 @@ def parapet_note(assessment: Assessment, item: RoofObject) -> str:
     if item.kind is not ObjectKind.EDGE_WITH_PARAPET or not arrays:
         return ""
     return ", does not qualify" + (f" for {', '.join(arrays)}" if len(arrays) < len(gaps) else "")
+
+
+def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
+    """Return the separation from any fixed object [m]; NaN without a permitted displacement."""
+    rules = assessment.rules
+    return provisions.required_separation(
+        rules,
+        Neighbor.FIXED,
+        design_m=array.permitted_m,
+        # Any object that may come: its I_p is taken as that of the array.
+        importance=array.array.i_p if rules.importance_in_separation else 1.0,
+    )
+
+
+def keep_clear_mark(assessment: Assessment, array: ArrayAssessment) -> str:
+    """Return the mark of the separation of an array from any fixed object; none without one."""
+    if math.isnan(keep_clear_m(assessment, array)):
+        return ""
+    factor, plain = (
+        rules["separation_fixed"]
+        for rules in (assessment.rules, provisions.RULE_SETS[assessment.rules.name])
+    )
+    return array.overridden.design or mark_of(factor, plain)
+
+
+def keep_clear(separation_m: float, us_first: bool) -> str:
+    """Return a distance to keep clear, rounded up to 1 in or 10 mm; `unknown` for NaN."""
+    if math.isnan(separation_m):
+        return "unknown"  # "none" would read as no distance
+    steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
+    return f"{steps} in" if us_first else f"{10 * steps} mm"

@@ -1,4 +1,7 @@
-"""Mean PRD over a grid of friction and slope, which `report.web.views` draws."""
+"""Mean PRD over a grid of friction and slope, which `report.web.views` draws.
+
+Of arrays with 0.35 and 0.50 they are 0.27, 0.33 … 0.69, the nearest replaced by that of the array.
+"""
 
 from __future__ import annotations
 

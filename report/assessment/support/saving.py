@@ -1,4 +1,8 @@
-"""What an analysis could save, of a project without motions that permit one."""
+"""What an analysis could save, of a project without motions that permit one.
+
+Beside a prescriptive displacement of 1.00 m the floor of PV1-2012 is 0.50 m: a clearance of 0.60 m
+to a fixed object that is NG now would be enough.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The options of each command, in a module of its name; importing one loads click alone.
+"""The options of each command, in a module with those beside it; importing one loads click alone.
 
 A command imports the module that does its work, in `report.cli`, where it runs.
 """

@@ -9,8 +9,8 @@ from typing import Any
 
 import click
 
-from report.cli.exit_codes import INPUT_ERROR
 from report.cli.options import Existing
+from report.cli.terminal import INPUT_ERROR
 
 PORT = 8765
 MIN_TOKEN = 20  # characters

@@ -14,10 +14,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
 from report.project.model import ProjectInput
 from report.project.model.array import WEIGHT_PARTS
-from report.project.model.choices import ClearanceSource
-from report.project.model.frozen import Frozen
-from report.project.model.place import Place
-from report.project.model.placed import SIDES
+from report.project.model.choices import ClearanceSource, Frozen
+from report.project.model.input_rows import Place
+from report.project.model.shapes import SIDES
 from report.project.workbook import SECTION, SECTIONS
 from report.project.workbook.earlier_workbooks import ORDERS
 from report.text.grouping import grouped_by

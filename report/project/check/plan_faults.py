@@ -1,30 +1,30 @@
-"""Faults of the roof plan: rectangles, outlines, what is off the roof or overlaps."""
+"""Faults of the roof plan: outlines, what is off the roof or overlaps, clearances unlike it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 
-from report.project.check.input_columns import suggestion
 from report.project.check.plan_shapes import (
     LEAST_VERTICES,
     MOST_OVERLAPS,
     PLACED,
     OutlineRows,
     outlines_of,
+    places_of,
     rows_in,
     shape_of,
+    shapes_of,
     us_first,
 )
 from report.project.model.choices import ObjectKind
 from report.project.model.finding import Finding
-from report.project.model.input_rows import InputRow, Inputs
-from report.project.model.place import Place, Where
-from report.project.model.placed import SIDES
+from report.project.model.input_rows import InputRow, Inputs, Place, Where, repeated, suggestion
 from report.project.model.roof import ROOF
 from report.project.model.shapes import (
     NEAR_M,
+    SIDES,
     Point,
     Rectangle,
     Shape,
@@ -33,7 +33,8 @@ from report.project.model.shapes import (
     outside,
     ring,
 )
-from report.text.units import Quantity, pair
+from report.text.units import Quantity, no_more, pair
+from solver.model import INCH_M
 
 # Fields of which the second is larger, where a table has them.
 ORDERED = (("x_from_m", "x_to_m"), ("y_from_m", "y_to_m"))
@@ -185,15 +186,20 @@ def _overlaps(inputs: Inputs, where: Where) -> Iterator[Finding]:
     cleared = {frozenset((row.get("array"), row.get("object"))) for row in inputs["clearances"]}
     bodies = sorted(_bodies(inputs), key=lambda body: body.bounds.x_from_m)
     for count, body in enumerate(bodies):
-        for other in bodies[count + 1 :]:
+        for neighbor in bodies[count + 1 :]:
             # They are sorted from the left: none of the following reaches back either.
-            if other.bounds.x_from_m >= body.bounds.x_to_m:
+            if neighbor.bounds.x_from_m >= body.bounds.x_to_m:
                 break
-            first, second = sorted((body, other), key=lambda one: (not one.is_array, one.place))
-            if not first.is_array or frozenset((body.name, other.name)) in cleared:
+            first, second = sorted(
+                (body, neighbor), key=lambda item: (not item.is_array, item.place)
+            )
+            if not first.is_array or frozenset((body.name, neighbor.name)) in cleared:
                 continue
             # Boxes first: shapes that are no rectangles are measured by a library.
-            if gap_m(body.bounds, other.bounds) < 0.0 and gap_m(body.shape, other.shape) < -NEAR_M:
+            if (
+                gap_m(body.bounds, neighbor.bounds) < 0.0
+                and gap_m(body.shape, neighbor.shape) < -NEAR_M
+            ):
                 text = f"{first.name} and {second.name} at {where(second.place)} overlap in plan"
                 yield Finding.error(first.place, text, "correct one of them")
 
@@ -207,3 +213,61 @@ def _bodies(inputs: Inputs) -> Iterator[_Body]:
         if shape is not None and row.get("kind") not in _EDGES:
             shape_place = place._replace(field="x_from_m") if outline is None else outline.place
             yield _Body(shape_place, row["id"], place.section == "arrays", shape, shape.bounds)
+
+
+GAP_TOLERANCE = 0.01
+# Below the inch at which a package states that a clearance contradicts the plan
+# (`report.assessment.plan.neighbors`): what passes here passes there.
+GAP_TOLERANCES_M = (0.5 * INCH_M, 0.99 * INCH_M)
+
+
+def gap_tolerance_m(gap_m: float) -> float:
+    """Return how far a clearance may be from the gap of the plan [m]."""
+    low, high = GAP_TOLERANCES_M
+    return min(max(GAP_TOLERANCE * gap_m, low), high)
+
+
+def clearance_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
+    """Yield clearances that are given twice, to the array itself, or as more than in plan."""
+    fields = ("array", "object", "direction")
+    rows = enumerate(inputs["clearances"])
+    named = ((Place("clearances", i, "array"), tuple(map(row.get, fields))) for i, row in rows)
+    for place, (array, *_), first in repeated(cell for cell in named if None not in cell[1]):
+        text = f"array is '{array}', with the same object and direction as at {where(first)}"
+        yield Finding.error(place, text, "delete one")
+    shapes = shapes_of(inputs)
+    for index, row in enumerate(inputs["clearances"]):
+        yield from _room(index, row, shapes, inputs, where)
+
+
+def _room(
+    index: int, row: InputRow, shapes: Mapping[str, Shape], inputs: Inputs, where: Where
+) -> Iterator[Finding]:
+    array, neighbor, provided = row.get("array"), row.get("object"), row.get("provided_m")
+    if array is not None and array == neighbor:
+        text = f"object is '{neighbor}', the array itself"
+        remedy = "give an object or another array"
+        yield Finding.error(Place("clearances", index, "object"), text, remedy)
+        return
+    a, b = (shapes.get(str(name)) for name in (array, neighbor))
+    if a is None or b is None or provided is None:
+        return
+    gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
+    # Shapes that touch are apart by rounding error, of either sign.
+    if gap >= -1e-9 and provided <= gap + gap_tolerance_m(gap):
+        return
+    boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)
+    noun = "rectangles" if boxes else "outlines"
+    stated, gap_text = (
+        pair(max(m, 0.0), Quantity.SIZE, us_first(inputs), no_more) for m in (provided, gap)
+    )
+    cells, text = (
+        places_of(inputs, (str(array), str(neighbor)), where),
+        f"provided clearance is {stated}",
+    )
+    if gap < -1e-9:
+        text += f", but {array} and {neighbor} overlap in plan"
+        yield Finding.error(place, text, f"correct their {noun} in {cells}")
+    else:
+        text += f", but {array} and {neighbor} are {gap_text} apart in plan"
+        yield Finding.error(place, text, f"reduce it, or correct the {noun} in {cells}")

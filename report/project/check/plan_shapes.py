@@ -6,11 +6,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from report.project.model.choices import UnitsFirst
-from report.project.model.input_rows import InputRow, Inputs
-from report.project.model.place import Place, Where
-from report.project.model.placed import SIDES
+from report.project.model.input_rows import InputRow, Inputs, Place, Where
 from report.project.model.roof import ROOF
-from report.project.model.shapes import Point, Polygon, Rectangle, Shape, crossing, gap_m, ring
+from report.project.model.shapes import (
+    SIDES,
+    Point,
+    Polygon,
+    Rectangle,
+    Shape,
+    crossing,
+    gap_m,
+    ring,
+)
 from report.text.units import Quantity, pair
 
 # 2,000 arrays at one place would be two million pairs.

@@ -1,4 +1,4 @@
-"""Warnings on values that are permitted and improbable: dates, height, weight, friction, gaps.
+"""Warnings on values that are permitted and improbable, or outside their usual range.
 
 Reads no record: `report.motions.prepare` does. Read `implausible`.
 """
@@ -6,28 +6,26 @@ Reads no record: `report.motions.prepare` does. Read `implausible`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 
-from report.project.check.clearance_faults import gap_tolerance_m
+from report.project.check.plan_faults import gap_tolerance_m
 from report.project.check.plan_shapes import far_off
 from report.project.check.site_faults import ROUNDING_OF_COEFFICIENTS
-from report.project.check.usual_ranges import spoken, unusual
 from report.project.model import ProjectInput
 from report.project.model.array import Array
-from report.project.model.choices import Direction, SlopeUnit
+from report.project.model.choices import Direction, Frozen, ObjectKind, SlopeUnit
 from report.project.model.finding import Finding, Level, note, warning
-from report.project.model.place import Place
-from report.project.model.roof import Clearance
+from report.project.model.friction_report import FrictionTestRow
+from report.project.model.input_rows import Place
+from report.project.model.motion_input import MotionInput
+from report.project.model.roof import Clearance, RoofObject
 from report.project.model.shapes import Shape, closest, gap_m
 from report.project.model.site import Site
+from report.project.workbook import SECTIONS
+from report.project.workbook.entries import Entry, SheetSection
 from report.text.counts import counted, numbered
-from report.text.units import (
-    LENGTHS,
-    PRESSURES,
-    Quantity,
-    no_more,
-    pair,
-)
+from report.text.units import LENGTHS, PRESSURES, Quantity, no_more, pair
 from solver.rules.rulesets import ALLOWED, usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
@@ -262,3 +260,63 @@ def _mistaken(provided_m: float, gap: float) -> tuple[float, str]:
             if size > read and abs(provided_m * size / read - gap) <= gap_tolerance_m(gap):
                 return size / read, _UNITS[unit]
     return 1.0, ""
+
+
+# Difference from a limit / limit that is rounding error of a conversion of units.
+ROUNDING = 1e-9
+
+
+@cache
+def _ranged(section: SheetSection) -> Sequence[tuple[Entry, float, float]]:
+    """Return the fields of a section with a usual range, and its ends."""
+    return [
+        (entry, entry.expected.low * (1.0 - ROUNDING), entry.expected.high * (1.0 + ROUNDING))
+        for entry in section.entries
+        if entry.usual is not None
+    ]
+
+
+def unusual(data: ProjectInput) -> Iterator[Finding]:
+    """Yield a warning for each number outside its usual range."""
+    is_us = data.us_first
+    for section in SECTIONS:
+        rows = getattr(data, section.key)
+        for index, row in enumerate(rows if section.is_table else (rows,)):
+            # An edge without parapet has height 0, which is no object too low.
+            is_bare = getattr(row, "kind", None) is ObjectKind.EDGE_WITHOUT_PARAPET
+            for entry, low, high in _ranged(section):
+                value = getattr(row, entry.name)
+                is_none = value == 0.0 and (is_bare or entry.zero)
+                if value is None or low <= value <= high or is_none:
+                    continue
+                yield _warning(section, index, entry, row, is_us)
+
+
+def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us: bool) -> Finding:
+    unit = entry.unit_in(is_us=is_us)
+    symbol, si = (unit.symbol, unit.si) if unit else (str(entry.unit), 1.0)
+    value, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
+    text = f"{entry.spoken} is {value} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
+    # The sheet Acknowledged answers a warning by this name: reasons of former workbooks depend on
+    # it.
+    name = " ".join(f"usual {entry.spoken} {_named(row)}".split())
+    place = Place(section.key, index, entry.name)
+    return warning(name, place, f"{text} is usual: correct the value or its unit")
+
+
+def _named(row: Frozen) -> str:
+    """Return by what a row of a table is known; nothing for single cells."""
+    match row:
+        case Array() | RoofObject() | MotionInput():
+            return row.id
+        case Clearance():
+            return spoken(row)
+        case FrictionTestRow():
+            return f"{row.report or ''} {row.surface} {row.number}"
+    return ""
+
+
+def spoken(row: Clearance) -> str:
+    """Return a clearance in words."""
+    where = "" if row.direction is Direction.ANY else f" {row.direction}"
+    return f"{row.array} to {row.object}{where}"

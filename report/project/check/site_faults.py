@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterator
 
 from report.project.model.finding import Finding
-from report.project.model.input_rows import InputRow, Inputs
-from report.project.model.place import Place, Where
+from report.project.model.input_rows import InputRow, Inputs, Place, Where
 from report.project.model.site import (
     categories,
     category_lacks,

@@ -6,22 +6,60 @@ They are pydantic's, for `model_copy`, JSON and the types that a value of any so
 
 from __future__ import annotations
 
+import datetime as dt
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from pydantic import Field, model_validator
 
-from report.project.model.array import Array
-from report.project.model.choices import ClearanceSource, DistanceBasis, PlanPaper
+from report.project.model.array import Array, Links
+from report.project.model.choices import (
+    ClearanceSource,
+    DistanceBasis,
+    Frozen,
+    PlanPaper,
+    RequiredText,
+    Text,
+    UnitsFirst,
+)
 from report.project.model.friction_report import FrictionTestRow, FrictionTests
-from report.project.model.frozen import Frozen
-from report.project.model.issue import Project, Revision
-from report.project.model.links import Links
 from report.project.model.motion_input import BuildingInput, MotionInput, SpectrumPoint, TargetInput
 from report.project.model.options import Acknowledgment, Confirmation, Options, Override
 from report.project.model.roof import ROOF, Clearance, DrawingLayer, Roof, RoofObject, Vertex
 from report.project.model.shapes import Point, Shape, ring
 from report.project.model.site import Site
+
+
+class Project(Frozen):
+    """Project data."""
+
+    name: RequiredText
+    number: RequiredText
+    client: Text = ""
+    address: Text = ""
+    prepared_by: RequiredText
+    checked_by: Text = ""
+    firm: Text = ""
+    firm_contact: Text = ""
+    license: Text = ""
+    date: dt.date
+    revision: RequiredText
+    units_first: UnitsFirst = UnitsFirst.US
+    plan_number: Text = ""
+    plan_date: dt.date | None = None
+    drawing_confirmed_by: Text = ""
+    drawing_confirmed_date: dt.date | None = None
+    drawing_covered: Text = ""
+
+
+class Revision(Frozen):
+    """One line of the revision block."""
+
+    revision: RequiredText
+    date: dt.date
+    description: RequiredText
+    by: Text = ""
+
 
 # Fields that refer to arrays and objects, by section.
 _NAMING = {"clearances": ("array", "object"), "links": ("array",), "outlines": ("name",)}

@@ -1,20 +1,33 @@
-"""A ballasted array that moves as one block: slope, friction, weight, place."""
+"""A ballasted array that moves as one block, or as a row of linked blocks."""
 
 from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
-from report.project.model.choices import Id, NotNegative, Positive, RequiredText, SlopeUnit, Text
+from report.project.model.choices import (
+    Frozen,
+    Id,
+    NotNegative,
+    Positive,
+    RequiredText,
+    SlopeUnit,
+    Text,
+    decimals,
+)
 from report.project.model.input_rows import InputRow
-from report.project.model.placed import Placed
-from report.project.model.shapes import Shape
+from report.project.model.shapes import Placed, Shape
+from report.text.units import G_MPS2
 from solver.errors import DefectError
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M
 from solver.model import Friction
+
+if TYPE_CHECKING:
+    from solver.sliding.row import BlockRow
+
 
 ImportanceCell = Annotated[float, Field(ge=1.0, le=1.5)]
 MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]
@@ -124,3 +137,35 @@ class Array(Placed):
         if placed is None:
             raise DefectError(f"array {self.id} has no place in plan")
         return placed
+
+
+# Fewest and most blocks of a row.
+BLOCKS = (2, 20)
+
+
+def coefficients(text: str) -> tuple[float, ...]:
+    """Return the numbers of a list such as `0.40, 0.45, 0.50`; empty if the text is not one."""
+    mus = decimals(text)
+    return mus if BLOCKS[0] <= len(mus) <= BLOCKS[1] and max(mus) <= MOST_MU else ()
+
+
+class Links(Frozen):
+    """An array as a row of linked blocks of equal weight along the slope."""
+
+    array: Id
+    friction: Annotated[str, Field(min_length=1, max_length=200)]
+    stiffness_n_per_m: Positive
+    damping_ratio: Annotated[float, Field(ge=0, le=1)] = 0.0
+
+    @property
+    def mus(self) -> tuple[float, ...]:
+        """Friction coefficient of each block, from the upslope end."""
+        return coefficients(self.friction)
+
+    def row(self, weight_n: float) -> BlockRow:
+        """Return the row of an array of some weight [N]."""
+        from solver.sliding.row import BlockRow  # loads the compiler, and a workbook needs none
+
+        stiffness = self.stiffness_n_per_m * len(self.mus) * G_MPS2 / weight_n
+        damping = 2.0 * self.damping_ratio * math.sqrt(stiffness)
+        return BlockRow(mus=self.mus, stiffness_per_s2=stiffness, damping_per_s=damping)

@@ -1,4 +1,4 @@
-"""The choices that cells offer, and the types of text and number that they accept.
+"""The base of all models, the choices that cells offer, and the types that their values have.
 
 Owns no fields and no labels. Read `report.project.model` first.
 """
@@ -9,13 +9,22 @@ import re
 from enum import StrEnum
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import BaseModel, ConfigDict, Field
 
 from solver.building.structure import APPROXIMATE_PERIODS
 from solver.records.record import UNIT_CHOICES
 from solver.rules.hazard import EDITIONS
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import RULE_SETS
+
+
+class Frozen(BaseModel):
+    """Base of all models: frozen, complete, finite."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", allow_inf_nan=False, str_strip_whitespace=True
+    )
+
 
 MAX_TEXT = 2000
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from solver.errors import Problem
 
 
@@ -31,9 +31,9 @@ class Finding:
     cell: str = ""  # address of a cell that is no input; empty for that of the place
 
     @classmethod
-    def error(cls, place: Place, found: str, remedy: str = "") -> Finding:
+    def error(cls, place: Place, text: str, remedy: str = "") -> Finding:
         """Return an input error: what was found, and what would be accepted."""
-        return cls(level=Level.ERROR, place=place, text=found, remedy=remedy)
+        return cls(level=Level.ERROR, place=place, text=text, remedy=remedy)
 
     def problem(self, where: str) -> Problem:
         """Return the error with its address."""
@@ -45,9 +45,9 @@ def warning(name: str, place: Place, text: str) -> Finding:
     return Finding(level=Level.WARNING, id=name, place=place, text=text)
 
 
-def limit(text: str, place: Place, *others: Place) -> Finding:
+def limit(text: str, place: Place, *further: Place) -> Finding:
     """Return a warning that cannot be acknowledged, with the cells to look at."""
-    return Finding(level=Level.WARNING, place=place, others=others, text=text)
+    return Finding(level=Level.WARNING, place=place, others=further, text=text)
 
 
 def note(place: Place, text: str) -> Finding:

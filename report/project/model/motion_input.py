@@ -12,6 +12,7 @@ from pydantic import Field
 from report.project.model.choices import (
     AccelUnit,
     Baseline,
+    Frozen,
     Id,
     Polarity,
     RecordedAt,
@@ -20,7 +21,6 @@ from report.project.model.choices import (
     StructureType,
     Text,
 )
-from report.project.model.frozen import Frozen
 from solver.bounds import ORDINATE
 from solver.rules.hazard import Tail
 

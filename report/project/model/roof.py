@@ -10,6 +10,7 @@ from report.project.model.array import ImportanceCell
 from report.project.model.choices import (
     ClearanceSource,
     Direction,
+    Frozen,
     Id,
     LayerKind,
     NotNegative,
@@ -17,8 +18,7 @@ from report.project.model.choices import (
     RequiredText,
     Text,
 )
-from report.project.model.frozen import Frozen
-from report.project.model.placed import Placed
+from report.project.model.shapes import Placed
 
 # Whence a row comes that a command has taken from a drawing.
 DRAWING = "drawing"

@@ -11,6 +11,7 @@ from pydantic import Field
 from report.project.model.choices import (
     BuildingCode,
     EditionName,
+    Frozen,
     NotNegative,
     Positive,
     RiskCategory,
@@ -19,7 +20,6 @@ from report.project.model.choices import (
     SiteClass,
     Text,
 )
-from report.project.model.frozen import Frozen
 from report.project.model.input_rows import InputRow
 from solver.errors import DefectError
 from solver.rules.hazard import (

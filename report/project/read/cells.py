@@ -1,6 +1,6 @@
 """Converts the content of a cell to the value of a field, or to an error message.
 
-Independent of sheets and files: `locate_cell` and `locate_table` find the cells.
+Independent of sheets and files: `locate` finds the cells.
 """
 
 from __future__ import annotations

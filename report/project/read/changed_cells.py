@@ -71,7 +71,7 @@ def changed(
         cells = {(p.row, p.column): value for p, value in changes.items() if p.sheet == title}
         has_formula |= _fill(title, sheet, cells)
         _forget(sheet, {(p.row, p.column) for p in stale if p.sheet == title} - cells.keys())
-        _look_alike(sheet, {at: like for at, like in looks.items() if at.sheet == title})
+        _look_alike(sheet, {place: like for place, like in looks.items() if place.sheet == title})
         files[part] = _written(sheet)
         files |= _longer_tables(files, part, cells)
     book = _parsed("xl/workbook.xml", files["xl/workbook.xml"])
@@ -129,9 +129,9 @@ def _cells_of(sheet: Any) -> dict[_Place, Any]:
 
 def _fill(title: str, sheet: Any, cells: _Cells) -> bool:
     """Write cells of a sheet, and show columns that are filled; return if one was a formula."""
-    home, at = sheet.find("{*}sheetData"), _cells_of(sheet)
+    home, elements = sheet.find("{*}sheetData"), _cells_of(sheet)
     rows = {int(row.get("r")): row for row in home.iterfind("{*}row")}
-    formulas = {place: cell.find("{*}f") for place, cell in at.items()}
+    formulas = {place: cell.find("{*}f") for place, cell in elements.items()}
     formulas = {place: formula for place, formula in formulas.items() if formula is not None}
     columns = [
         (range(int(element.get("min")), int(element.get("max")) + 1), element)
@@ -142,7 +142,7 @@ def _fill(title: str, sheet: Any, cells: _Cells) -> bool:
             address = f"{title}!{get_column_letter(place[1])}{place[0]}"
             raise InputError(f"{address}: shares its formula with other cells; clear it first")
     for (row, column), value in sorted(cells.items(), key=lambda item: item[0]):
-        cell = at.get((row, column))
+        cell = elements.get((row, column))
         if cell is None and value is not None:
             if row not in rows:
                 rows[row] = _inserted(home, "row", str(row), int, row)
@@ -159,7 +159,11 @@ def _is_needed_elsewhere(place: _Place, formulas: Mapping[_Place, Any], cells: _
     reach = formula.get("ref", "")
     if formula.get("t") != "shared":
         return ":" in reach
-    group = {at for at, other in formulas.items() if other.get("si") == formula.get("si")}
+    group = {
+        shared
+        for shared, shared_formula in formulas.items()
+        if shared_formula.get("si") == formula.get("si")
+    }
     return bool(reach) and not cells.keys() >= group
 
 
@@ -179,11 +183,11 @@ def _added(row: Any, address: str, columns: _Columns, column: int) -> Any:
     """Return a new cell, with the style of its row or else of its column."""
     # A hint for readers, which would be false now (ECMA-376-1, 18.3.1.73).
     row.attrib.pop("spans", None)
-    cell = _inserted(row, "c", address, lambda other: coordinate_to_tuple(other)[1], column)
+    cell = _inserted(row, "c", address, lambda reference: coordinate_to_tuple(reference)[1], column)
     if row.get("customFormat") in _ONES:
         style = row.get("s")
     else:
-        styles = (element.get("style") for at, element in columns if column in at)
+        styles = (element.get("style") for numbers, element in columns if column in numbers)
         style = next(filter(None, styles), None)
     if style:
         cell.set("s", style)
@@ -217,24 +221,24 @@ def _put(cell: Any, value: Value) -> None:
 
 def _show(columns: _Columns, filled: set[int]) -> None:
     """Show columns which are hidden, folded groups also, and filled."""
-    for at, column in columns:
-        if column.get("hidden") in _ONES and filled.intersection(at):
+    for numbers, column in columns:
+        if column.get("hidden") in _ONES and filled.intersection(numbers):
             column.attrib.pop("hidden")
             column.attrib.pop("collapsed", None)
             for after, mark in columns:  # where a group ends, its mark would fold it again
-                if after.start == at.stop:
+                if after.start == numbers.stop:
                     mark.attrib.pop("collapsed", None)
 
 
 def _look_alike(sheet: Any, looks: Mapping[CellPosition, CellPosition]) -> None:
     """Give cells the format of others, also those that have no content, for their borders."""
-    at = _cells_of(sheet) if looks else {}
+    elements = _cells_of(sheet) if looks else {}
     rows = {int(row.get("r")): row for row in sheet.iterfind("{*}sheetData/{*}row")}
     for position, like in looks.items():
-        model = at.get((like.row, like.column))
+        model = elements.get((like.row, like.column))
         if model is None or position.row not in rows:
             continue
-        cell = at.get((position.row, position.column))
+        cell = elements.get((position.row, position.column))
         if cell is None:
             cell = _added(rows[position.row], position.cell, (), position.column)
         if style := model.get("s"):
@@ -265,8 +269,8 @@ def _longer_tables(
         if "tables/" not in path or path not in files:
             continue
         table = _parsed(path, files[path])
-        old = table.get("ref")
-        corners: Any = range_boundaries(old)  # a table has none without numbers
+        reference = table.get("ref")
+        corners: Any = range_boundaries(reference)  # a table has none without numbers
         left, top, right, bottom = corners
         filled = {
             row
@@ -281,6 +285,6 @@ def _longer_tables(
             longer = f"{get_column_letter(left)}{top}:{get_column_letter(right)}{last}"
             # Its filter has the same range.
             for part_of_table in table.iter():
-                if part_of_table.get("ref") == old:
+                if part_of_table.get("ref") == reference:
                     part_of_table.set("ref", longer)
             yield path, _written(table)

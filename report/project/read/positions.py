@@ -19,8 +19,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.scan import LAST_COLUMN, LAST_ROW
-from report.project.workbook.entries import Entry
-from report.project.workbook.sections import SheetSection
+from report.project.workbook.entries import Entry, SheetSection
 from solver.errors import InputError, Problem
 
 MAX_COLUMNS = 200
@@ -107,12 +106,12 @@ def labels(book: OpenBook, sheet: Worksheet) -> Sequence[tuple[CellPosition, str
         # Records that are pasted into a sheet make it long: labels are above them.
         rows = range(1, min(extent.last_row, SCANNED_ROWS) + 1)
         columns = range(1, min(extent.last_column, MAX_COLUMNS) + 1)
-        found: list[tuple[CellPosition, str]] = []
+        labeled: list[tuple[CellPosition, str]] = []
         for row, column in product(rows, columns):
             value = sheet.cell(row, column).value
             if value is not None:
-                found.append((CellPosition(sheet.title, row, column), label_key(value)))
-        book.labels[sheet.title] = found
+                labeled.append((CellPosition(sheet.title, row, column), label_key(value)))
+        book.labels[sheet.title] = labeled
     return book.labels[sheet.title]
 
 

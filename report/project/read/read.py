@@ -16,8 +16,7 @@ from openpyxl.utils import coordinate_to_tuple
 from report.project.check.faults import faults
 from report.project.model import ProjectInput
 from report.project.model.finding import Finding
-from report.project.model.input_rows import Inputs
-from report.project.model.place import Place, Where
+from report.project.model.input_rows import Inputs, Place, Where
 from report.project.read.archive import OpenBook, open_book
 from report.project.read.cells import (
     CellError,
@@ -28,20 +27,19 @@ from report.project.read.cells import (
     stated_unit,
     wish_for_missing,
 )
-from report.project.read.copied_sheets import copies
 from report.project.read.documents import read_documents
-from report.project.read.locate_cell import (
+from report.project.read.locate import (
+    FieldColumn,
     added_later,
     beside,
     cell_as_column,
     find_cell,
+    find_table,
     gone_cells,
     is_absent,
 )
-from report.project.read.locate_table import FieldColumn, find_table
 from report.project.read.positions import FRESH, CellPosition, found_at
-from report.project.read.saved_values import from_outside, not_calculated
-from report.project.read.unseen import by_cell, unseen
+from report.project.read.unseen import by_cell, copies, from_outside, not_calculated, unseen
 from report.project.read.workbook_data import (
     IGNORED,
     EchoRow,
@@ -53,8 +51,7 @@ from report.project.read.workbook_data import (
 )
 from report.project.workbook import SECTION, SECTIONS
 from report.project.workbook.earlier_workbooks import GoneInput
-from report.project.workbook.entries import Entry
-from report.project.workbook.sections import SheetSection
+from report.project.workbook.entries import Entry, SheetSection
 from report.text.command_line import quoted
 from report.text.letter_case import lowered
 from report.text.typed_letters import cut, trimmed
@@ -99,7 +96,7 @@ def without_motions(sheet: Sheet) -> ProjectInput:
 
 
 def read_as(
-    whole: type[Whole],
+    model: type[Whole],
     sections: tuple[SheetSection, ...],
     book: OpenBook,
     check: Callable[[Inputs, Where], Iterable[Finding]],
@@ -127,7 +124,7 @@ def read_as(
         path=book.path,
         sha256=book.sha256,
         book=book,
-        whole=whole,
+        whole=model,
         sections=sections,
         check=check,
         inputs=gathered.inputs,
@@ -216,8 +213,8 @@ def _refuse_gone(gone: GoneInput, place: Place, cell: Found, gathered: Gathered)
     """Add a problem for an input that is no more, unless its cell asks for nothing."""
     answer = trimmed(cell.shown)
     if not cell.is_blank and answer.casefold() not in gone.defaults:
-        found = f"{lowered(gone.label)} is '{cut(answer)}'"
-        gathered.add(place, [Problem(found, gone.remedy, cell.address)])
+        text = f"{lowered(gone.label)} is '{cut(answer)}'"
+        gathered.add(place, [Problem(text, gone.remedy, cell.address)])
 
 
 def _read_table(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:

@@ -115,12 +115,12 @@ class Scan(ContentHandler):
                 self._column += 1
                 if reference := attrs.get("r"):
                     self._row, self._column = coordinate_to_tuple(reference)
-                at = self._row, self._column
+                position = self._row, self._column
                 if not (0 < self._row <= LAST_ROW and 0 < self._column <= LAST_COLUMN):
                     self.is_beyond = True
-                if at in self.cells:
+                if position in self.cells:
                     self.twice = f"{get_column_letter(self._column)}{self._row}"
-                self.cells.add(at)
+                self.cells.add(position)
             case "v" | "is":
                 self.extent.grow(self._row, self._column)
             case _ if element in _FORMULAS:
@@ -190,9 +190,9 @@ class Scan(ContentHandler):
         if not reference or ":" not in reference:
             return
         left, top, right, bottom = (side or 0 for side in range_boundaries(reference))
-        whole = 0 in (left, top, right, bottom)  # such as A:C
+        is_open = 0 in (left, top, right, bottom)  # such as A:C
         area = (abs(right - left) + 1) * (abs(bottom - top) + 1)
-        self._spread_cells += MAX_CELLS if whole else area
+        self._spread_cells += MAX_CELLS if is_open else area
         if self._spread_cells > MAX_SPREAD_CELLS:
             raise InputError(
                 f"merged cells or links over {reference}; unmerge them, or remove the links"

@@ -1,11 +1,11 @@
-"""Cells that are read though the workbook does not show them, or shows them struck through.
+"""What a reader of a workbook may not see: hidden cells, copies of sheets, previous values.
 
-Knows no field. Read `unseen`, and `warnings` for what is said of it.
+Read `unseen`, and `warnings` for what is said of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from itertools import chain, groupby, islice
@@ -15,12 +15,15 @@ from openpyxl.styles.colors import COLOR_INDEX, Color
 from openpyxl.utils import coordinate_to_tuple, get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
+from report.project.check.finding_lines import listed
 from report.project.model.finding import Finding, warning
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.number_formats import shows_nothing
-from report.project.read.positions import bounds_of
+from report.project.read.positions import bounds_of, fields_by_label, labels
+from report.project.workbook.entries import SheetSection
+from report.text.typed_letters import cut
 
 # Cells that are read, each with the place that it is read for.
 Used = Iterable[tuple[Place, Found]]
@@ -95,16 +98,16 @@ def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
     for place, cell in used:
         if cell.sheet not in sights:
             sights[cell.sheet] = _Sight(book.book[cell.sheet])
-        at = coordinate_to_tuple(cell.cell)
-        for kind in sights[cell.sheet].kinds(*at, cell):
-            by_sheet.setdefault((cell.sheet, kind), []).append((place, at))
+        position = coordinate_to_tuple(cell.cell)
+        for kind in sights[cell.sheet].kinds(*position, cell):
+            by_sheet.setdefault((cell.sheet, kind), []).append((place, position))
     return tuple(
         Unseen(
             kind=kind,
             sheet=sheet,
             state=book.book[sheet].sheet_state,
             place=cells[0][0],
-            cells=tuple(at for _, at in cells),
+            cells=tuple(position for _, position in cells),
         )
         for (sheet, kind), cells in by_sheet.items()
     )
@@ -251,3 +254,76 @@ def _rgb(color: Color | None, default: tuple[int, ...]) -> tuple[int, ...]:
     if color.type == "indexed" and color.indexed < len(COLOR_INDEX):
         return tuple(bytes.fromhex(COLOR_INDEX[color.indexed][-6:]))
     return default
+
+
+# Labels in each row of a sheet, in the form that is compared.
+Rows = tuple[frozenset[str], ...]
+
+
+def copies(
+    book: OpenBook, sections: Iterable[SheetSection], addresses: Mapping[Place, str]
+) -> Iterator[Finding]:
+    """Yield a warning for each sheet with all labels of one that is read."""
+    rows = {sheet.title: _rows(book, sheet) for sheet in book.book.worksheets}
+    warned: set[str] = set()
+    for section in sections:
+        addresses_of = (
+            address for place, address in addresses.items() if place.section == section.key
+        )
+        read = next(addresses_of, "").rpartition("!")[0]
+        labels = _labels(section, rows[read]) if read in rows else frozenset()
+        for title in rows:
+            if labels and title not in (read, *warned) and labels <= _labels(section, rows[title]):
+                warned.add(title)
+                text = (
+                    f"sheets '{read}' and '{title}' both have the labels of {section.title};"
+                    f" '{read}' is read, and '{title}' is ignored: delete the one that is not meant"
+                )
+                yield warning(f"copy {title}", Place(section.key), text)
+
+
+def _rows(book: OpenBook, sheet: Worksheet) -> Rows:
+    rows: dict[int, set[str]] = {}
+    for position, label in labels(book, sheet):
+        rows.setdefault(position.row, set()).add(label)
+    return tuple(map(frozenset, rows.values()))
+
+
+def _labels(section: SheetSection, rows: Rows) -> Set[str]:
+    """Return the labels of a section on a sheet: of a table, those in one row."""
+    fields = fields_by_label(section)
+    places = rows if section.is_table else (frozenset().union(*rows),)
+    labels = ({fields[label].name for label in place & fields.keys()} for place in places)
+    return max(labels, key=len, default=set())
+
+
+_MOST_LISTED = 8
+
+
+def from_outside(book: OpenBook, place: Place) -> Iterator[Finding]:
+    """Yield a warning if a workbook takes values from elsewhere: by DDE, or of other files."""
+    if book.outside:
+        names = (cut(link).encode("ascii", "replace").decode() for link in book.outside)
+        which = listed(names, _MOST_LISTED)
+        text = f"the workbook takes values from elsewhere ({which}), of which the saved ones are"
+        yield warning("outside", place, f"{text} read: type the values instead")
+
+
+def not_calculated(book: OpenBook, used: Used, of_book: Place) -> Iterator[Finding]:
+    """Yield a warning if the values of formulas may not follow from the cells they refer to."""
+    says = book.calculation
+    read = [(place, cell.address) for place, cell in used if cell.formula]
+    if says.get("calcCompleted", "1") in ("0", "false"):
+        manual = " (calculation is manual)" if says.get("calcMode") == "manual" else ""
+        why = f"was saved before its formulas were calculated{manual}"
+    # So does a fresh one, which has such values only in formulas that are read.
+    elif read and says.get("fullCalcOnLoad", "0") in ("1", "true"):
+        why = "asks to be calculated when it is opened"
+    else:
+        return
+    if read or any(scan.formulas for scan in book.scans.values()):
+        place, cell = read[0] if read else (of_book, "")
+        which = listed((address for _, address in read), _MOST_LISTED) or "its computed cells"
+        text = f"the workbook {why}, and {which} may show previous values: calculate it (F9; in"
+        text += " LibreOffice Ctrl+Shift+F9) and save it"
+        yield replace(warning("calculation", place, text), cell=cell)

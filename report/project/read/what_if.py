@@ -12,7 +12,7 @@ from typing import Any
 from openpyxl.utils import coordinate_to_tuple
 
 from report.project.check.faults import faults
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.cells import CellError, Found, blank_value, read_cell
 from report.project.read.positions import CellPosition
 from report.project.read.read import Gathered

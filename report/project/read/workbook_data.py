@@ -12,14 +12,13 @@ from pydantic import ValidationError
 
 from report.project.check.faults import faults
 from report.project.model import ProjectInput
+from report.project.model.choices import Frozen
 from report.project.model.finding import Finding
-from report.project.model.frozen import Frozen
-from report.project.model.input_rows import Inputs
-from report.project.model.place import Place, Where
+from report.project.model.input_rows import Inputs, Place, Where
 from report.project.read.archive import OpenBook
 from report.project.read.documents import Document
 from report.project.read.unseen import Unseen
-from report.project.workbook.sections import SheetSection
+from report.project.workbook.entries import SheetSection
 from solver.errors import InputError, Problem
 
 
@@ -46,7 +45,7 @@ IGNORED = "not an input, ignored"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Source:
+class WorkbookSource:
     """What a package says of the workbook that a project was read from."""
 
     path: Path
@@ -92,9 +91,9 @@ class SheetOf(Generic[Whole]):
         return self.whole.model_validate(parts)
 
     @property
-    def source(self) -> Source:
+    def source(self) -> WorkbookSource:
         """What a package says of the workbook."""
-        return Source(
+        return WorkbookSource(
             path=self.path,
             sha256=self.sha256,
             addresses=self.addresses,
@@ -171,8 +170,8 @@ Sheet = SheetOf[ProjectInput]
 
 def where(addresses: Mapping[Place, str], place: Place) -> str:
     """Return the address of a place; that of its table or sheet if it has no cell."""
-    whole = addresses.get(Place(place.section), place.section)
-    return addresses.get(place, whole)
+    table = addresses.get(Place(place.section), place.section)
+    return addresses.get(place, table)
 
 
 # Tables that name rows of others: without these every name would be unknown.

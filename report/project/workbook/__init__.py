@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from report.project.workbook.entries import SheetSection
 from report.project.workbook.motion_sheets import BUILDING, LINKS, MOTIONS, SPECTRUM, TARGET
 from report.project.workbook.option_sheets import ACKNOWLEDGED, CONFIRMATION, OPTIONS, OVERRIDES
 from report.project.workbook.roof_sheets import ARRAYS, CLEARANCES, LAYERS, OBJECTS, OUTLINES, ROOF
-from report.project.workbook.sections import SheetSection
 from report.project.workbook.site_sheets import (
     FRICTION_RUNS,
     FRICTION_TESTS,

@@ -1,4 +1,4 @@
-"""What Excel knows of an input: heading, unit, note, example.
+"""What Excel knows of an input: heading, unit, note, example; blocks and tables of inputs.
 
 The type of a value and its allowed range are those of the field of the model.
 """
@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import datetime as dt
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from enum import StrEnum
+from functools import partial
 from typing import Any, get_args
 
 from annotated_types import Ge, Gt, Le, Lt
 
-from report.project.model.choices import YesNo
-from report.project.model.frozen import Frozen
+from report.project.model.choices import Frozen, YesNo
 from report.project.model.input_rows import InputRow
 from report.text.units import Quantity, Unit
 
@@ -172,3 +172,84 @@ def _bounds(constraints: list[Any]) -> Bounds:
             case Le(le=high) | Lt(lt=high):
                 bounds |= {"high": high, "excludes_high": isinstance(constraint, Lt)}
     return Bounds(**bounds)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SheetSection:
+    """A part of the workbook: a block of single cells, or a table."""
+
+    key: str  # its field of the whole input, and the prefix of its names in the workbook
+    sheet: str
+    title: str
+    model: type[Frozen]  # of the block, or of one row
+    note: str  # one line of instruction
+    entries: tuple[Entry, ...]
+    is_table: bool
+    may_be_absent: bool = False  # as in workbooks of earlier versions
+    needs_rows: bool = False
+
+    @property
+    def is_needed(self) -> bool:
+        """Whether every project fills it: a table with rows, or a block with required cells."""
+        is_required = any(entry.is_required for entry in self.entries)
+        return self.needs_rows if self.is_table else is_required
+
+    def sheet_of(self, field: str) -> str:
+        """Return the sheet of a field."""
+        return self.entry(field).sheet or self.sheet
+
+    @property
+    def table_name(self) -> str:
+        """Name of its Excel table."""
+        return f"{self.key}_table"
+
+    def entry(self, field: str) -> Entry:
+        """Return one of its fields."""
+        return next(entry for entry in self.entries if entry.name == field)
+
+    def cell_name(self, field: str) -> str:
+        """Return the defined name of a single cell."""
+        return f"{self.key}_{field}"
+
+    def unit_name(self, field: str) -> str:
+        """Return the defined name of the cell that holds a single cell's unit."""
+        return f"{self.cell_name(field)}_unit"
+
+
+def section(
+    key: str,
+    sheet: str,
+    title: str,
+    model: type[Frozen],
+    note: str,
+    *entries: Entry,
+    **traits: bool,
+) -> SheetSection:
+    """Return a part of the workbook, its entries with what the model says of their fields."""
+    return SheetSection(
+        key=key,
+        sheet=sheet,
+        title=title,
+        model=model,
+        note=note,
+        entries=tuple(of_model(entry, model) for entry in entries),
+        **traits,
+    )
+
+
+block, table = partial(section, is_table=False), partial(section, is_table=True)
+
+
+def rows_of(
+    section: SheetSection, sections: Sequence[SheetSection]
+) -> list[tuple[SheetSection, Entry]]:
+    """Return the inputs in the order of a block's rows, with the section that each is of."""
+    rows = []
+    for entry in section.entries:
+        if entry.below:
+            continue
+        rows.append((section, entry))
+        place = (section.key, entry.name)
+        for part in sections:
+            rows += [(part, below) for below in part.entries if below.below == place]
+    return rows

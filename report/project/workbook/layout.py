@@ -11,7 +11,7 @@ from openpyxl.utils import get_column_letter, quote_sheetname
 from openpyxl.workbook.defined_name import DefinedName
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.workbook.sections import SheetSection
+from report.project.workbook.entries import SheetSection
 
 # Last row that dropdowns and conditional formats reach.
 LAST_ROW = 500

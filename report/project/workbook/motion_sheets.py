@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from report.project.model.array import Links
 from report.project.model.choices import Scaling
-from report.project.model.links import Links
 from report.project.model.motion_input import BuildingInput, MotionInput, SpectrumPoint, TargetInput
-from report.project.workbook.entries import Entry
-from report.project.workbook.sections import block, table
+from report.project.workbook.entries import Entry, block, table
 from report.text.units import Quantity
 
 

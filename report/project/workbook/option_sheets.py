@@ -4,10 +4,16 @@ from __future__ import annotations
 
 import datetime as dt
 
-from report.project.model.options import Acknowledgment, Confirmation, Options, Override
-from report.project.model.provision_names import provision_key, provision_name, provision_unit
-from report.project.workbook.entries import Entry
-from report.project.workbook.sections import block, table
+from report.project.model.options import (
+    Acknowledgment,
+    Confirmation,
+    Options,
+    Override,
+    provision_key,
+    provision_name,
+    provision_unit,
+)
+from report.project.workbook.entries import Entry, block, table
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS
 
 OPTIONS = block("options", "Options", "Options", Options, "The defaults suit most projects.",

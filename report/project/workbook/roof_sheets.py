@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from report.project.model.array import Array, weight_of_parts
-from report.project.model.placed import SIDES
 from report.project.model.roof import DRAWING, Clearance, DrawingLayer, Roof, RoofObject, Vertex
-from report.project.workbook.entries import Entry
-from report.project.workbook.sections import block, table
+from report.project.model.shapes import SIDES
+from report.project.workbook.entries import Entry, block, table
 from report.text.units import Quantity
 
 OR_OUTLINE = "required, or an outline"

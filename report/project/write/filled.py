@@ -3,26 +3,27 @@
 from __future__ import annotations
 
 import os
+import re
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import starmap
 from pathlib import Path
 
+from openpyxl.formula import Tokenizer
+from openpyxl.formula.tokenizer import Token, TokenizerError
 from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple
 from openpyxl.utils.escape import unescape
 
 from report.project.model.choices import ClearanceSource
-from report.project.model.input_rows import InputRow
-from report.project.model.place import Place
+from report.project.model.input_rows import InputRow, Place
 from report.project.read.archive import OpenBook, book_of, located, open_book
 from report.project.read.cells import Found
 from report.project.read.changed_cells import Formula, Value, changed
-from report.project.read.formula_references import references
-from report.project.read.locate_table import MAX_ROWS, TableFound, find_table, table_area
+from report.project.read.locate import MAX_ROWS, TableFound, find_table, table_area
 from report.project.read.positions import FRESH, CellPosition, bounds_of, found_at
 from report.project.read.read import read_book
 from report.project.read.what_if import cells
@@ -140,8 +141,8 @@ class WorkbookChange:
                 " row above it; remove the row of totals, or insert rows above it"
             )
         if row > top + MAX_ROWS:
-            most = f"the {MAX_ROWS} that a table may have"
-            raise InputError(f"{table.heading.address}: more rows are needed than {most}")
+            limit = f"the {MAX_ROWS} that a table may have"
+            raise InputError(f"{table.heading.address}: more rows are needed than {limit}")
         return row
 
     def note(self, cells: Mapping[CellPosition, Value]) -> None:
@@ -209,22 +210,24 @@ def filled(book: OpenBook, cells: Mapping[CellPosition, Value]) -> OpenBook:
     looks = dict(_grown(book, after))
     # Excel gives the rows that a table has grown by their formulas only where they are typed.
     formulas = {}
-    for at, last in looks.items():
+    for position, last in looks.items():
         formula = book.formula(last.sheet, last.cell)
         if formula and is_answer(book.book[last.sheet].cell(last.row, last.column)):
-            formulas[at] = Formula(Translator(formula, last.cell).translate_formula(at.cell))
+            formulas[position] = Formula(
+                Translator(formula, last.cell).translate_formula(position.cell)
+            )
     return book_of(book.path, changed(after.data, formulas, looks=looks)) if looks else after
 
 
 def _grown(before: OpenBook, after: OpenBook) -> Iterator[tuple[CellPosition, CellPosition]]:
     """Yield the cells of the rows that each table has grown by, with those of its last row."""
     for section in (section for section in SECTIONS if section.is_table):
-        was, now = table_area(before, section), table_area(after, section)
-        if was is None or now is None:
+        was, after_area = table_area(before, section), table_area(after, section)
+        if was is None or after_area is None:
             continue
         for heading in was.headings.values():
             last = replace(heading, row=was.last)
-            for row in range(was.last + 1, now.last + 1):
+            for row in range(was.last + 1, after_area.last + 1):
                 yield replace(heading, row=row), last
 
 
@@ -233,22 +236,31 @@ def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
     areas = {}
     for title, scan in book.scans.items():
         for cell in scan.formulas:
-            at = CellPosition(title, *coordinate_to_tuple(cell))
-            areas[at] = [_area(reference, title) for reference in references(scan.formula(cell))]
+            position = CellPosition(title, *coordinate_to_tuple(cell))
+            areas[position] = [
+                _area(reference, title) for reference in references(scan.formula(cell))
+            ]
     titles, dependents = {title.casefold() for title in book.scans}, set(cells)
 
     def may_refer(title: str, bounds: tuple[int, int, int, int] | None) -> bool:
         if bounds is None or title not in titles:  # a name, a column of a table, other files
             return True
         left, top, right, bottom = bounds
-        return any(left <= at.column <= right and top <= at.row <= bottom for at in places[title])
+        return any(
+            left <= position.column <= right and top <= position.row <= bottom
+            for position in places[title]
+        )
 
     places: Mapping[str, list[CellPosition]]
     added: Set[CellPosition] = cells
     while added:
         # What refers to the others is found already.
-        places = defaultdict(list, grouped_by(added, lambda at: at.sheet.casefold()))
-        added = {at for at in areas if at not in dependents and any(starmap(may_refer, areas[at]))}
+        places = defaultdict(list, grouped_by(added, lambda position: position.sheet.casefold()))
+        added = {
+            position
+            for position in areas
+            if position not in dependents and any(starmap(may_refer, areas[position]))
+        }
         dependents |= added
     return dependents - cells
 
@@ -281,3 +293,20 @@ def withdrawn(change: WorkbookChange) -> list[str]:
 def _drawn(sheet: Sheet) -> list[InputRow]:
     rows = sheet.inputs["clearances"]
     return [row for row in rows if row.get("source") is ClearanceSource.DRAWING]
+
+
+_COMPUTED = re.compile(r":|\b(?:INDIRECT|OFFSET|TABLE)\b", re.IGNORECASE)
+
+
+# The rows of a table have the same formula.
+@lru_cache(maxsize=1024)
+def references(formula: str) -> Sequence[str]:
+    """Return the cells and names that a formula refers to; one is empty where it computes some."""
+    try:
+        tokens: Sequence[Token] = Tokenizer(formula).items
+    except (TokenizerError, IndexError):  # the second of a bracket that closes nothing
+        return [""]
+    operators = "".join(token.value for token in tokens if token.type != Token.OPERAND)
+    if not tokens or _COMPUTED.search(operators):
+        return [""]
+    return [token.value for token in tokens if token.subtype == Token.RANGE]

@@ -15,13 +15,11 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyleInfo
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.model.choices import UnitsFirst
-from report.project.model.frozen import Frozen
-from report.project.model.provision_names import provision_name
+from report.project.model.choices import Frozen, UnitsFirst
+from report.project.model.options import provision_name
 from report.project.workbook.answers import SITE_ANSWERS, SITE_FORMAT, FormulaColumn, table_answers
-from report.project.workbook.entries import Entry
+from report.project.workbook.entries import Entry, SheetSection, rows_of
 from report.project.workbook.layout import TablePlace, Tables, name_cell
-from report.project.workbook.sections import SheetSection, rows_of
 from report.project.write import style
 from report.text.units import Unit
 
@@ -251,11 +249,11 @@ def _write_hints(
             is_example = row == top + 2
             hint = style.put(sheet, row, number, text, color=style.GRAY, size=9, italic=is_example)
             hint.fill, hint.border = style.HINT_FILL, style.BOX
-    shown = [at for at, column in enumerate(columns, start=FIRST) if not column.is_folded]
-    widths = [int(sheet.column_dimensions[get_column_letter(at)].width) for at in shown]
+    unfolded = [place for place, column in enumerate(columns, start=FIRST) if not column.is_folded]
+    widths = [int(sheet.column_dimensions[get_column_letter(place)].width) for place in unfolded]
     for row in range(top, top + len(HINT_ROWS)):
-        said = [str(sheet.cell(row, number).value) for number in shown]
-        sheet.row_dimensions[row].height = 5 + 12.5 * _lines(said, widths)
+        texts = [str(sheet.cell(row, number).value) for number in unfolded]
+        sheet.row_dimensions[row].height = 5 + 12.5 * _lines(texts, widths)
 
 
 def _hints(column: GridColumn, units: UnitsFirst) -> tuple[str, str, str]:

@@ -68,14 +68,14 @@ def _write_table(
     style.put(sheet, row, 1, title, bold=True, size=12, wrap=False)
     style.put(sheet, row + 1, 1, note, color=style.GRAY, wrap=False)
     style.put_values(sheet, row + 2, heads, are_heads=True)
-    top = at = row + 3
+    top = next_row = row + 3
     for values in rows:
-        style.put_values(sheet, at, values)
-        at += 1
+        style.put_values(sheet, next_row, values)
+        next_row += 1
     for name, columns in names.items():
         first, _, last = columns.partition(":")
-        layout.name_range(name, sheet, f"${first}${top}:${last}${at - 1}")
-    return at + 1
+        layout.name_range(name, sheet, f"${first}${top}:${last}${next_row - 1}")
+    return next_row + 1
 
 
 def _write_coefficients(sheet: Worksheet, row: int, table: CoefficientTable) -> int:
@@ -102,15 +102,15 @@ def _write_coefficients(sheet: Worksheet, row: int, table: CoefficientTable) -> 
 
 
 def _write_sdc(sheet: Worksheet, row: int) -> int:
-    least: list[list[style.Value]] = [
+    limits: list[list[style.Value]] = [
         ["S_DS", 0.0, *hazard.LIMITS_SHORT_G],
         ["S_D1", 0.0, *hazard.LIMITS_1S_G],
     ]
     note = "Least value of each step; ASCE 7, 11.6"
     words = ("Steps of the seismic design category", note)
-    after = _write_table(sheet, row, words, ("Value [g]", "1", "2", "3", "4"), least, {})
-    for at, name in enumerate(("sdc_s_ds", "sdc_s_d1"), start=row + 3):
-        layout.name_range(name, sheet, f"$B${at}:$E${at}")
+    after = _write_table(sheet, row, words, ("Value [g]", "1", "2", "3", "4"), limits, {})
+    for step_row, name in enumerate(("sdc_s_ds", "sdc_s_d1"), start=row + 3):
+        layout.name_range(name, sheet, f"$B${step_row}:$E${step_row}")
     note = f"By its step, the fifth of S_1 = {hazard.NEAR_FAULT_S_1_G} g; then as far as it follows"
     rows = []
     for category, i_e in hazard.LEAST_I_E.items():

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from report.project.model.finding import Finding, Level
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found, plain
-from report.project.read.locate_table import table_area
+from report.project.read.locate import table_area
 from report.project.read.positions import FRESH, CellPosition, area_named, found_at
 from report.project.workbook import SECTIONS
 from report.project.write.start_sheet import START
@@ -68,8 +68,8 @@ def formula_findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
 
     def key(numbered: tuple[int, Overwritten]) -> tuple[str, int, int, bool]:
         count, item = numbered
-        at = item.position
-        return at.sheet, at.column, at.row - count, item.is_broken
+        position = item.position
+        return position.sheet, position.column, position.row - count, item.is_broken
 
     for _, group in groupby(enumerate(lost), key):
         run = [item for _, item in group]
@@ -97,8 +97,8 @@ def _title(book: OpenBook, position: CellPosition) -> str:
         area = table_area(book, section) if section.is_table else None
         if area and area.sheet == position.sheet and area.header < position.row <= area.last:
             return str(sheet.cell(area.header, position.column).value)
-    there, row = book.scans[position.sheet].cells, position.row
-    columns = (column for column in range(1, position.column) if (row, column) in there)
+    filled, row = book.scans[position.sheet].cells, position.row
+    columns = (column for column in range(1, position.column) if (row, column) in filled)
     labels = (sheet.cell(row, column).value for column in columns)
     title = next((str(label) for label in labels if isinstance(label, str) and label), "cell")
     return f"{title.removesuffix(' *')}, computed," if position.sheet == "Site" else title

@@ -9,7 +9,7 @@ from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.model.provision_names import provision_name, provision_unit
+from report.project.model.options import provision_name, provision_unit
 from report.project.workbook import layout
 from report.project.workbook.answers import BY_FORMULA, IN_DISPLACEMENT, IN_SEPARATION, ONE_VALUE
 from report.project.write import style

@@ -52,11 +52,11 @@ def write_panel(sheet: Worksheet, top: int, tables: Tables, *, is_us: bool) -> i
     )
     for neighbor, label in _SEPARATIONS.items():
         number = answers.SEPARATION_ROWS[neighbor]
-        at = row + 2 + number
+        line = row + 2 + number
         factor = "I_e of the building" if neighbor.is_edge else "the largest I_p"
         note = f"PV1-2012: multiplied by {factor}."
-        _write_line(sheet, at, (label, answers.separation(unit, at), note), lengths)
-        style.put(sheet, at, 4, "", color=style.GRAY).value = number
+        _write_line(sheet, line, (label, answers.separation(unit, line), note), lengths)
+        style.put(sheet, line, 4, "", color=style.GRAY).value = number
     return row + 3 + len(_SEPARATIONS) + 1
 
 
@@ -130,21 +130,21 @@ def write_start(book: Workbook, tables: Tables, *, is_us: bool) -> None:
     links = _write_links(book, _put_heading(sheet, picture, "Worksheets", LINKS_COLUMN))
     colors = _write_colors(sheet, picture)
     row = _put_heading(sheet, max(_put_picture(sheet, picture), links, colors), "Notes")
-    for at, note in enumerate(_NOTES, start=row):
-        style.put(sheet, at, 2, note)
-        sheet.merge_cells(start_row=at, end_row=at, start_column=2, end_column=len(_WIDTHS))
-        sheet.row_dimensions[at].height = 28
+    for line, note in enumerate(_NOTES, start=row):
+        style.put(sheet, line, 2, note)
+        sheet.merge_cells(start_row=line, end_row=line, start_column=2, end_column=len(_WIDTHS))
+        sheet.row_dimensions[line].height = 28
 
 
 def _write_links(book: Workbook, row: int) -> int:
     """Write a link to each sheet of inputs; return the row below and one more."""
     titles = list(dict.fromkeys(section.sheet for section in SECTIONS))
-    for at, title in enumerate(titles, start=row):
+    for line, title in enumerate(titles, start=row):
         # By a defined name, which follows a sheet that is renamed.
         name = f"top_{title.lower().replace(' ', '_')}"
         name_cell(name, book[title], 1, 1)
-        said = f"{title} (seldom used)" if title in RARE else title
-        cell = style.put(book[START], at, LINKS_COLUMN, said, wrap=False)
+        words = f"{title} (seldom used)" if title in RARE else title
+        cell = style.put(book[START], line, LINKS_COLUMN, words, wrap=False)
         cell.hyperlink = Hyperlink(ref=cell.coordinate, location=name)
         cell.font = Font(name="Calibri", size=10, color=style.INK, underline="single")
     return row + len(titles) + 1
@@ -157,10 +157,10 @@ def _put_heading(sheet: Worksheet, row: int, title: str, column: int = 1) -> int
 
 
 def _write_steps(sheet: Worksheet, row: int) -> int:
-    for at, step in enumerate(STEPS, start=row):
-        style.put(sheet, at, 1, str(at - row + 1), bold=True, size=12)
-        style.put(sheet, at, 2, step, size=11, wrap=False)
-        sheet.row_dimensions[at].height = 20
+    for line, step in enumerate(STEPS, start=row):
+        style.put(sheet, line, 1, str(line - row + 1), bold=True, size=12)
+        style.put(sheet, line, 2, step, size=11, wrap=False)
+        sheet.row_dimensions[line].height = 20
     return row + len(STEPS) + 1
 
 
@@ -175,9 +175,9 @@ def _put_picture(sheet: Worksheet, row: int) -> int:
 
 def _write_colors(sheet: Worksheet, row: int) -> int:
     row = _put_heading(sheet, row, "Colors", COLORS_COLUMN)
-    for at, (sample, color, fill, meaning) in enumerate(_SAMPLES, start=row):
-        cell = style.put(sheet, at, COLORS_COLUMN, sample, color=color, bold=color != "000000")
+    for line, (sample, color, fill, meaning) in enumerate(_SAMPLES, start=row):
+        cell = style.put(sheet, line, COLORS_COLUMN, sample, color=color, bold=color != "000000")
         cell.fill, cell.border = fill, style.BOX
-        style.put(sheet, at, COLORS_COLUMN + 1, meaning, color=style.GRAY)
-        sheet.row_dimensions[at].height = 20
+        style.put(sheet, line, COLORS_COLUMN + 1, meaning, color=style.GRAY)
+        sheet.row_dimensions[line].height = 20
     return row + len(_SAMPLES) + 1

@@ -116,13 +116,13 @@ def put_heading(sheet: Worksheet, row: int, title: str, hint: str) -> None:
 def put_input(cell: Any, entry: Entry, value: object, unit: Unit | None) -> None:
     """Format a cell as input of a field, and write a value in SI, if any."""
     style_input(cell, entry.kind)
-    shown = entry.zero if value == 0.0 and entry.zero else in_cell(value, unit)
-    if shown is None:
+    typed = entry.zero if value == 0.0 and entry.zero else in_cell(value, unit)
+    if typed is None:
         return
-    cell.value = shown
-    if isinstance(shown, str):
+    cell.value = typed
+    if isinstance(typed, str):
         cell.data_type = "s"  # text that starts with = is not a formula
-    elif isinstance(shown, date):
+    elif isinstance(typed, date):
         cell.number_format = "yyyy-mm-dd"
 
 
@@ -251,8 +251,8 @@ def finish(sheet: Worksheet, is_us: bool) -> None:
     page.orientation, page.scale = "landscape", _ZOOM
     # Letter, or A4, by the numbers of the file format.
     page.paperSize = 1 if is_us else 9
-    shown = (column for column in sheet.column_dimensions.values() if not column.hidden)
-    if sheet.tables and sum(column.width for column in shown) > _WIDEST:
+    visible = (column for column in sheet.column_dimensions.values() if not column.hidden)
+    if sheet.tables and sum(column.width for column in visible) > _WIDEST:
         sheet.print_title_cols = "A:B"
     margins = sheet.page_margins
     # A4 is lower and wider than letter: the same rows fill a page of both.

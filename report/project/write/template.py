@@ -13,9 +13,10 @@ from openpyxl import Workbook
 
 from report.project.model import ProjectInput
 from report.project.model.choices import UnitsFirst
+from report.project.read.read import read
 from report.project.workbook import SECTIONS
+from report.project.workbook.entries import SheetSection
 from report.project.workbook.layout import TablePlace, Tables
-from report.project.workbook.sections import SheetSection
 from report.project.write import style
 from report.project.write.grids import write_answers, write_block, write_table
 from report.project.write.lookups import write_lookups
@@ -82,3 +83,19 @@ def mark_sheets(book: Workbook, example: object) -> None:
             if not any(getattr(example, section.key, ()) for section in sections):
                 sheet.sheet_state = "hidden"
         sheet.sheet_properties.tabColor = fill.start_color.rgb
+
+
+_REPORT = Path(__file__).resolve().parents[2]
+_HOMES = (_REPORT / "web" / "example", _REPORT.parent / "projects" / "example")
+# Within the package where it is installed, or of the checkout.
+EXAMPLE = next(path for path in _HOMES if path.is_dir())
+
+
+def example_files(units: UnitsFirst) -> dict[str, bytes]:
+    """Return records/ and documents/ as shipped, and input.xlsx in a system of units, by name."""
+    paths = (*sorted((EXAMPLE / "records").iterdir()), *sorted((EXAMPLE / "documents").iterdir()))
+    files = {f"{path.parent.name}/{path.name}": path.read_bytes() for path in paths}
+    project = read(EXAMPLE).project
+    issue = project.project.model_copy(update={"units_first": units})
+    example = project.model_copy(update={"project": issue})
+    return files | {"input.xlsx": template(units, example)}

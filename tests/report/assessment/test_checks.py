@@ -6,9 +6,8 @@ import pytest
 
 from fixtures import altered_projects, assessments, projects
 from fixtures.project_parts import INCH
-from report.assessment.checks.alike import alike
 from report.assessment.checks.check import Check, Sense, by_ratio, verdict_of
-from report.assessment.checks.sentence import sentence, texts, words
+from report.assessment.checks.sentence import alike, sentence, texts, words
 from report.assessment.design.verdict import Verdict
 from report.text.amounts import capacity, demand, entered
 from report.text.units import Quantity

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from fixtures import assessments, project_parts, projects
 from report.assessment.design.verdict import Verdict
 from report.assessment.support.envelopes import design_envelope, hull, runs_envelope
-from report.assessment.support.keep_clear import keep_clear_m
+from report.assessment.support.plan_gaps import keep_clear_m
 from report.project.model.choices import Direction
 from report.project.model.shapes import Polygon, Rectangle, gap_m
 from solver.rules.provisions import Neighbor

@@ -9,9 +9,9 @@ from fixtures import assessments, project_parts, projects
 from fixtures.pages import page_of
 from fixtures.projects import FOOT, INCH
 from report.assessment.checks import (
-    array_capacities,
+    capacities,
     confirmations,
-    records,
+    motion_checks,
     seismic_parameters,
 )
 from report.assessment.checks.sentence import found_and_limit
@@ -114,7 +114,7 @@ def before_runs(key, *, units="US", **given):
     """The row on an array of 42,000 lb on 80 ft x 60 ft, 8.75 psf."""
     head = project_parts.HEAD | {"units_first": units}
     data = projects.project(arrays=[projects.array("A1", 0.5, **given)], project=head)
-    rows = array_capacities.before_runs(data, data.arrays[0], 0.0)
+    rows = capacities.before_runs(data, data.arrays[0], 0.0)
     return next((item for item in rows if item.id == key), None)
 
 
@@ -405,7 +405,7 @@ def grounded(scale=1.0, place="ground", **changes):
     data = projects.project(motions=rows, **BUILDING | changes)
     book = assessments.grounded(data, assessments.level(), transverse=True, vertical=False)
     # As it is by analysis: where no array takes that value, a package has it as a note.
-    found = records.of_records(data, book.shaking.prepared)
+    found = motion_checks.of_records(data, book.shaking.prepared)
     return next((each for each in found if each.id == "ground_motions"), None)
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from fixtures import project_parts
-from report.assessment.checks.existing_roof import of_existing_roof
+from report.assessment.checks.capacities import of_existing_roof
 from report.assessment.checks.sentence import found_and_limit
 from report.assessment.design.verdict import Verdict
 from report.text.units import PRESSURES, WEIGHTS

@@ -9,8 +9,7 @@ import pytest
 from fixtures import assessments, projects
 from report.assessment.checks.sentence import found_and_limit
 from report.assessment.design.friction import at_low_velocity, mu_words, mus_words
-from report.assessment.design.tested_friction import basis_words
-from report.assessment.design.velocity_check import VelocityCheck
+from report.assessment.design.tested_friction import VelocityCheck, basis_words
 from report.assessment.design.verdict import Verdict
 from report.assessment.support.evidence import histories
 from solver.friction_tests import FrictionRun, Series, Surface

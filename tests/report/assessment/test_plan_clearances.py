@@ -28,9 +28,8 @@ from fixtures.workbooks import (
     type_into,
 )
 from report.assessment.assess import assess
-from report.assessment.plan.before_runs import pairs_before_runs
 from report.assessment.plan.missing_rows import missing_rows
-from report.assessment.plan.neighbors import direction_of
+from report.assessment.plan.neighbors import direction_of, pairs_before_runs
 from report.assessment.precheck import missing_clearances
 from report.cli import clearance_rows
 from report.cli.main import main

@@ -7,14 +7,14 @@ import pytest
 
 from fixtures import assessments, project_parts, projects, workbooks
 from fixtures.commands import stdout_of
+from report.assessment.checks.motion_checks import shaking_acceptance
 from report.assessment.checks.sentence import sentence
 from report.assessment.design.routes import Route
-from report.assessment.motion_acceptance import shaking_acceptance
 from report.assessment.precheck import limits_before_runs
 from report.motions.history import targets
 from report.project.model.finding import Level
-from report.project.model.place import Place
-from report.project.model.placed import SIDES
+from report.project.model.input_rows import Place
+from report.project.model.shapes import SIDES
 
 SEVEN = assessments.motions(7)
 BARE = projects.project(

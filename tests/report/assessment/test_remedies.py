@@ -15,7 +15,7 @@ from report.assessment.causes import came_to
 from report.assessment.design.friction import with_mu
 from report.assessment.design.verdict import Verdict
 from report.assessment.remedies.friction_search import above, below, search
-from report.assessment.remedies.remedies import MOST, Remedies, RemedyKind, remedies
+from report.assessment.remedies.remedy import MOST, Remedies, RemedyKind, remedies
 from report.pages.limits import remedy_lines
 from report.pages.saving import without_analysis
 from report.pages.terminal import summary

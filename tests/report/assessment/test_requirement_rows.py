@@ -7,13 +7,13 @@ import pytest
 from fixtures import assessments, project_parts, projects
 from fixtures.marks import by_day
 from fixtures.projects import FOOT, INCH
-from report.assessment.checks.overrides import of_overrides
-from report.assessment.checks.roof_plan import of_roof
+from report.assessment.checks.clearance_checks import of_roof
+from report.assessment.checks.rule_limits import of_overrides
 from report.assessment.checks.sentence import found_and_limit
 from report.assessment.design.rule_set import OVERRIDDEN
 from report.assessment.design.verdict import Verdict
 from report.project.check.covered import to_record
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from solver.rules.limit import Consequence
 
 SECTION = "2022 CFC, example section"

@@ -19,8 +19,8 @@ from report.assessment.assess import assess
 from report.assessment.checks.sentence import texts
 from report.assessment.precheck import findings
 from report.motions.prepare import prepare
-from report.project.model.place import Place
-from report.project.model.placed import SIDES
+from report.project.model.input_rows import Place
+from report.project.model.shapes import SIDES
 from report.text.units import LENGTHS, PRESSURES, WEIGHTS
 
 REASON = {"warning": "weight A1", "reason": "Frames alone, ballast by others"}
@@ -65,7 +65,9 @@ def test_check_alone_says_that_a_package_is_dated_in_the_future(tmp_path):
         " correct it if that is not intended"
     )
     sheet = read_workbook(folder)
-    assert not any("after today" in f.text for f in findings(sheet, prepare(sheet)))
+    assert not any(
+        "after today" in f.text for f in findings(sheet.source, sheet.project, prepare(sheet))
+    )
     assert "after today" not in stdout_of("check", make(tmp_path / "past"))
 
 

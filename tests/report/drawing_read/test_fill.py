@@ -26,8 +26,7 @@ from fixtures.workbooks import (
     type_into,
 )
 from report.project.model.choices import ClearanceSource, UnitsFirst
-from report.project.model.placed import SIDES
-from report.project.model.shapes import Polygon
+from report.project.model.shapes import SIDES, Polygon
 from report.project.read.read import read
 from report.project.write.overwritten import overwritten
 

@@ -14,8 +14,7 @@ from report.drawing_read.plan_read import plan_of
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing
 from report.drawing_read.row_matching import matched
 from report.project.model.choices import UnitsFirst
-from report.project.model.placed import SIDES
-from report.project.model.shapes import Polygon
+from report.project.model.shapes import SIDES, Polygon
 from report.project.read.read import read
 from solver.errors import InputError
 

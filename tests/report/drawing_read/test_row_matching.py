@@ -19,8 +19,7 @@ from report.drawing_read.plan_as_drawn import RoofPlan
 from report.drawing_read.roof_drawing import DrawnOutline
 from report.drawing_read.row_matching import MOST_TOLD, matched
 from report.project.model.choices import ClearanceSource, LayerKind, UnitsFirst
-from report.project.model.placed import SIDES
-from report.project.model.shapes import Polygon, Rectangle
+from report.project.model.shapes import SIDES, Polygon, Rectangle
 from report.project.read.read import read
 from solver.errors import InputError
 

@@ -16,7 +16,7 @@ from fixtures.pages import page_of
 from fixtures.plan_pictures import SMALL, roof_plan
 from fixtures.project_parts import NO_SIDES
 from fixtures.projects import FOOT
-from report.assessment.support.keep_clear import keep_clear
+from report.assessment.support.plan_gaps import keep_clear
 from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.paper_items import TYPE_PT, Text, width_in
 from report.drawing.sheet import LETTER, PlanSize, round_scale

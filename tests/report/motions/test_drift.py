@@ -9,7 +9,7 @@ from fixtures import assessments, projects
 from fixtures.paths import RECORDS
 from fixtures.project_parts import motion
 from fixtures.workbooks import make
-from report.assessment.checks.motion_limits import MOST_DRIFT_M, MOST_END_MPS, drift_limits
+from report.assessment.checks.motion_checks import MOST_DRIFT_M, MOST_END_MPS, drift_limits
 from report.assessment.design.verdict import Verdict
 from report.motions.prepare import prepare
 from report.project.read.read import read

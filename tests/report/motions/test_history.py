@@ -11,10 +11,9 @@ from fixtures import projects
 from fixtures.marks import by_day
 from fixtures.project_parts import motion
 from fixtures.workbooks import cell_address, make, problems, read_workbook
-from report.motions.components import Components, processing_of
+from report.motions.components import FACTOR, Components, processing_of, spikes
 from report.motions.history import ac156, first_period_s, shake, targets
 from report.motions.prepare import MAX_BESIDE_FAULTS, MAX_TOGETHER, MOST_FAULTS
-from report.motions.spikes import FACTOR, spikes
 from report.project.model.choices import RecordedAt
 from report.project.model.motion_input import MotionInput
 from solver.building.roof import shaking_to_roof

@@ -14,7 +14,7 @@ from fixtures.cells import cell
 from fixtures.marks import by_day
 from fixtures.pages import IDS, page_of
 from report.assessment.assess import reassess
-from report.assessment.checks.alike import alike
+from report.assessment.checks.sentence import alike
 from report.assessment.design.verdict import Verdict
 from report.assessment.support.spectra import spectra
 from report.drawing.on_paper import plan_on_paper

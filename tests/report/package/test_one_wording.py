@@ -8,11 +8,10 @@ import pytest
 from fixtures import altered_projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
-from report.assessment.checks.alike import alike
-from report.assessment.checks.sentence import sentence, texts
-from report.assessment.design.words import NO_DESIGN
+from report.assessment.checks.sentence import alike, sentence, texts
+from report.assessment.design.verdict import NO_DESIGN
 from report.assessment.precheck import limits_before_runs
-from report.assessment.remedies.remedies import Remedies
+from report.assessment.remedies.remedy import Remedies
 from report.assessment.support.spectra import spectra
 from report.pages import attention, terminal
 from report.pages.checks import APART

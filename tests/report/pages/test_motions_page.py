@@ -12,7 +12,7 @@ from openpyxl import Workbook
 
 from fixtures import assessments, project_parts, projects
 from fixtures.pages import page_of
-from report.assessment.motion_acceptance import shaking_acceptance
+from report.assessment.checks.motion_checks import shaking_acceptance
 from report.assessment.support.spectra import spectra
 from report.assessment.support.uncertainty import uncertainty
 from report.motions.components import read_components

@@ -12,7 +12,7 @@ from fixtures.pages import page_of
 from fixtures.paths import ROOT
 from fixtures.projects import INCH
 from report.assessment.assess import assess
-from report.assessment.checks.records import of_records
+from report.assessment.checks.motion_checks import of_records
 from report.assessment.checks.sentence import texts, words
 from report.assessment.design.routes import Route
 from report.pages.terminal import document, summary

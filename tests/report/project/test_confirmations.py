@@ -11,7 +11,7 @@ from fixtures.workbooks import SECTIONS as USUAL
 from fixtures.workbooks import make, project, read_workbook
 from report.project.check.covered import outdated, to_record
 from report.project.model.choices import UnitsFirst
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 
 pytestmark = pytest.mark.quick
 

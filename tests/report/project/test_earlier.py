@@ -16,7 +16,7 @@ from fixtures.workbooks import edit, make, project, read_workbook, same, type_in
 from report.cli.main import main
 from report.project.check.covered import CONFIRMATIONS, outdated
 from report.project.model import ProjectInput
-from report.project.model.provision_names import provision_key
+from report.project.model.options import provision_key
 from report.project.read.read import read
 from report.project.workbook import SECTION, SECTIONS
 from report.project.write.overwritten import overwritten

@@ -21,8 +21,8 @@ from fixtures.workbooks import (
     type_into,
     with_addresses,
 )
-from report.project.check.input_columns import suggestion
 from report.project.check.plan_shapes import MOST_OVERLAPS
+from report.project.model.input_rows import suggestion
 from report.project.read.read import read
 
 

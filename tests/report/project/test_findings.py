@@ -22,13 +22,11 @@ from fixtures.workbooks import (
     with_addresses,
 )
 from report.cli.main import main
-from report.project.check.finding_lines import lines
-from report.project.check.plausible import implausible
-from report.project.check.problem_lines import grouped, line_of
-from report.project.check.usual_ranges import unusual
+from report.project.check.finding_lines import grouped, line_of, lines
+from report.project.check.plausible import implausible, unusual
 from report.project.model.choices import ObjectKind
 from report.project.model.finding import Level, note, warning
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.read import read
 from report.web.jobs import problems as shown_problems
 from solver.errors import InputError, Problem

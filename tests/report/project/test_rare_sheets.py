@@ -22,8 +22,8 @@ from fixtures.workbooks import (
     type_into,
     with_addresses,
 )
+from report.project.model.array import Links, coefficients
 from report.project.model.choices import UnitsFirst
-from report.project.model.links import Links, coefficients
 from report.project.model.roof import ROOF
 from report.project.model.shapes import Polygon, Rectangle
 from report.project.read.read import read

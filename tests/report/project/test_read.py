@@ -256,7 +256,11 @@ def test_a_fire_pathway_is_a_width_or_none_or_not_answered(tmp_path):
     shown = [echo(book)[cell_address(name)].value for name in cells]
     assert (shown[:2], shown[4]) == (["none", "none"], "—")
     # None is no width that is too small, and is written as the word.
-    assert not [found for found in findings(book.sheet, book.shaking) if "pathway" in found.text]
+    assert not [
+        found
+        for found in findings(book.sheet.source, book.sheet.project, book.shaking)
+        if "pathway" in found.text
+    ]
     written = load_workbook(make(tmp_path / "again", clearances=book.input.clearances))
     assert cell(written, "Clearances/1/Fire pathway").value == "none"
 

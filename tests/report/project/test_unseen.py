@@ -25,7 +25,7 @@ from fixtures.workbooks import (
     type_into,
 )
 from report.assessment.precheck import findings
-from report.project.model.place import Place
+from report.project.model.input_rows import Place
 from report.project.read.read import read
 from report.project.read.unseen import Concealment, Unseen, warnings
 
@@ -195,7 +195,7 @@ def test_a_warning_is_acknowledged_by_its_name_and_the_echo_marks_its_cells(tmp_
     rows = [{"warning": "Hidden  sheet options", "reason": "Kept from the client's view"}]
     path = hide_options(make(tmp_path, acknowledged=rows), "hidden")
     book = read_workbook(path)
-    (found,) = findings(book.sheet, book.shaking)
+    (found,) = findings(book.sheet.source, book.sheet.project, book.shaking)
     assert found.reason == "Kept from the client's view"
     sheet, _, _ = cell_of("Options/1/Value")
     done = replace(assessments.package().assessment, source=book.sheet.source)
@@ -218,7 +218,7 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
     path = edit(make(tmp_path), change)
     records = {"Horizontal record": "Pasted!x [g]", "Transverse record": "Pasted!y [g]"}
     book = read_workbook(type_into(path, row_cells("Motions/M1", records)))
-    found = [f for f in findings(book.sheet, book.shaking) if f.id]
+    found = [f for f in findings(book.sheet.source, book.sheet.project, book.shaking) if f.id]
     ((name, text),) = [(f.id, f.text) for f in found if f.id.startswith("hidden")]
     assert name == "hidden sheet Pasted"
     assert "and cells A1:C150 on it are read" in text

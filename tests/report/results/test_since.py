@@ -2,7 +2,7 @@
 
 import json
 import re
-from dataclasses import asdict, replace
+from dataclasses import replace
 from functools import reduce
 from operator import getitem
 from pathlib import Path
@@ -171,10 +171,11 @@ def test_a_record_with_another_hash_the_rule_set_and_the_version_are_found(asses
 
 
 def test_a_document_with_another_hash_is_found_unless_the_former_file_does_not_say(assessment):
-    letter = Document(label="Letter of review", path="r.pdf", size=9, sha256="ab" * 32)
-    now = replace(assessment, source=replace(assessment.source, documents=(letter,)))
+    letter = {"label": "Letter of review", "path": "r.pdf", "size": 9, "sha256": "ab" * 32}
+    source = replace(assessment.source, documents=(Document(**letter),))
+    now = replace(assessment, source=source)
     document = json.loads(results_json(now, assessments.evidence(now)))
-    assert document["documents"] == [asdict(letter)]
+    assert document["documents"] == [letter]
     assert not changes(former(document), now).items
     document["documents"][0]["sha256"] = "00" * 32
     (found,) = changes(former(document), now).items

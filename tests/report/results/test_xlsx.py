@@ -10,8 +10,7 @@ from fixtures import assessments, project_parts, projects
 from fixtures.cells import address, cell
 from fixtures.libreoffice import recalculated
 from fixtures.workbooks import formula_cells
-from report.assessment.checks.alike import alike
-from report.assessment.checks.sentence import found_and_limit
+from report.assessment.checks.sentence import alike, found_and_limit
 from report.assessment.support.spectra import spectra
 from report.provenance.package_sources import fingerprint
 from report.results.sheet_columns import (

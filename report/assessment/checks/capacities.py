@@ -1,4 +1,8 @@
-"""Strength, roof capacity, weight and slack that the workbook states of an array."""
+"""Strength, slack and weight of an array, and what the existing building has room for.
+
+The existing-building code has a rule of 5 % for gravity and one of 10 % for lateral loads. Neither
+section was compared with its text: hence †.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +12,14 @@ from typing import Any
 
 from report.assessment.checks.check import STRENGTH_ROW, Actor, Check, Sense, condition, dagger
 from report.assessment.design.rule_set import rule_set_of
-from report.assessment.design.words import NO_DESIGN, NOT_GIVEN
+from report.assessment.design.verdict import NO_DESIGN, NOT_GIVEN
 from report.project.model import ProjectInput
 from report.project.model.array import Array
-from report.project.model.place import Place
+from report.project.model.choices import BuildingCode
+from report.project.model.input_rows import Place
 from report.text.amounts import capacity, demand, entered
-from report.text.units import Quantity, measured
+from report.text.letter_case import lowered
+from report.text.units import Quantity, measured, pair
 from solver.rules.limit import Consequence
 
 _NOISE = 1e-9  # a weight in other units is no more than itself
@@ -125,3 +131,56 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
 def _places(data: ProjectInput, array: Array, *fields: str) -> tuple[Place, ...]:
     index = [row.id for row in data.arrays].index(array.id)
     return tuple(Place("arrays", index, field) for field in fields)
+
+
+_REMEDY = (
+    "Have the engineer of the existing building evaluate it with the added weight, and enter"
+    " this evaluation on the Site worksheet."
+)
+
+
+def of_existing_roof(data: ProjectInput) -> Iterator[Check]:
+    """Yield the weight added as a share of the roof's own loads, and what is not entered."""
+    site, heaviest = data.site, max(data.arrays, key=lambda array: array.weight_pa)
+    added_n = math.fsum(array.weight_n for array in data.arrays)
+    evaluated = f"evaluated: {site.roof_evaluation}" if site.roof_evaluation else ""
+    code = "CEBC" if site.building_code is BuildingCode.CBC else "IEBC"
+    year = f", {site.building_code_year}" if site.building_code else ""
+    lacking: dict[str, str] = {}
+    for field, load, added, roof_value, quantity, subject, most_percent, section in (
+        ("roof_load_pa", "design load of the roof", heaviest.weight_pa, site.roof_load_pa,
+         Quantity.PRESSURE, heaviest.id, 5.0, "503.3"),
+        ("seismic_weight_n", "seismic weight of the building", added_n, site.seismic_weight_n,
+         Quantity.WEIGHT, "all arrays", 10.0, "503.4"),
+    ):  # fmt: skip
+        if roof_value is None:
+            lacking[field] = load
+            continue
+        percent = 100.0 * added / roof_value
+        first, second = (pair(value, quantity, data.us_first) for value in (added, roof_value))
+        is_met = percent <= most_percent * (1.0 + _NOISE)
+        yield condition(
+            id=field,
+            title=f"Weight added / {load}",
+            found=demand(percent, Quantity.PERCENT),
+            note=f"{subject}: {first} of {second}"
+            + ("" if is_met or not evaluated else f"; {evaluated}"),
+            limit=capacity(most_percent, Quantity.PERCENT, mark=", or an evaluation"),
+            sense=Sense.AT_MOST,
+            clause=f"{code} {section}{year}†",
+            is_satisfied=is_met or bool(evaluated),
+            remedy=_REMEDY,
+            places=(Place("site", 0, field), Place("site", 0, "roof_evaluation")),
+        )
+    if lacking:
+        yield condition(
+            id="existing_roof",
+            title="Existing building with the weight added",
+            found=evaluated or f"not checked: {', '.join(lacking.values())} {NOT_GIVEN}",
+            limit="its loads, for the 5% and 10% rules, or an evaluation",
+            clause=f"{code} 503.3, 503.4{year}†",
+            is_satisfied=bool(evaluated),
+            remedy=f"Enter its loads on the Site worksheet, or {lowered(_REMEDY)}",
+            places=(*(Place("site", 0, field) for field in lacking),
+                    Place("site", 0, "roof_evaluation")),
+        )  # fmt: skip

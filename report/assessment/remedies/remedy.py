@@ -1,5 +1,8 @@
 """What would satisfy each check that is NG, and the smallest set of changes that is enough.
 
+One clearance lacks 0.2 m, and A2 slack: 0.2 m more, or μ = 0.55, for the first, and slack for the
+second, each with the verdict of the project then; both together are the set.
+
 Each change is entered and assessed (`report.assessment.assess`) before it is named; friction is
 searched with the runs of `report.assessment.remedies.friction_search`. Read `remedies`.
 """
@@ -20,8 +23,8 @@ from report.assessment.causes import came_to
 from report.assessment.checks.check import PLAN_ROW, STRENGTH_ROW, Check, by_ratio
 from report.assessment.design.clearances import ClearanceCheck, by_id
 from report.assessment.design.friction import mu_words, with_mu, with_mus
-from report.assessment.design.gaps import ComparedGap
 from report.assessment.design.routes import Route
+from report.assessment.design.separation import ComparedGap
 from report.assessment.design.verdict import Verdict
 from report.assessment.remedies.friction_search import (
     Trials,
@@ -100,7 +103,7 @@ class Remedies:
         """The changes that are enough together, and what comes of them; empty if none."""
         if self.done is None:
             return ""
-        changes = joined([lowered(each.words) for each in self.together])
+        changes = joined([lowered(remedy.words) for remedy in self.together])
         return f"{capitalized(changes)}. {_came(self.done)}"
 
 
@@ -130,16 +133,16 @@ def _enough(state: _State, remedies: Iterable[Remedy]) -> Remedies:
     state_now, taken = state, list[Remedy]()
     while state_now.failed:
         ways = (list(state_now.ways(check)) for check in state_now.failed)
-        found = next(filter(None, ways), None)
-        if found is None or len(taken) == MOST:
+        trials = next(filter(None, ways), None)
+        if trials is None or len(taken) == MOST:
             return Remedies()
         # Of those that satisfy the check, the one with which the least is NG.
-        remedy, state_now = min(found, key=lambda way: len(way[1].failed))
+        remedy, state_now = min(trials, key=lambda way: len(way[1].failed))
         taken.append(remedy)
     done = state_now.done
-    for each in tuple(taken):
-        fewer = [other for other in taken if other is not each]
-        data = reduce(lambda data, other: other.change(data), fewer, state.done.project)
+    for tested in tuple(taken):
+        fewer = [item for item in taken if item is not tested]
+        data = reduce(lambda data, item: item.change(data), fewer, state.done.project)
         without = entered(state.done, data)
         if without is not None and without.verdict.is_permitted:
             taken, done = fewer, without
@@ -156,29 +159,29 @@ class _State:
 
     def own(self) -> Iterator[Remedy]:
         """Yield the remedies of each check, one that satisfies several once."""
-        told = set[tuple[RemedyKind, Check]]()
+        named = set[tuple[RemedyKind, Check]]()
         for check in self.failed[:MOST]:
-            kinds = {kind for kind, of in told if of is check}
-            for remedy, now in self.ways(check, kinds):
-                told |= {(remedy.kind, each) for each in remedy.checks}
-                yield replace(remedy, done=now.done)
+            kinds = {kind for kind, cured in named if cured is check}
+            for remedy, after in self.ways(check, kinds):
+                named |= {(remedy.kind, item) for item in remedy.checks}
+                yield replace(remedy, done=after.done)
 
     def ways(
-        self, check: Check, told: Iterable[RemedyKind] = ()
+        self, check: Check, known: Iterable[RemedyKind] = ()
     ) -> Iterator[tuple[Remedy, _State]]:
         """Yield a change of each kind that satisfies a check and makes nothing NG that was OK."""
-        ok = {_key(other) for other in self.done.checks if other.is_satisfied}
-        found = {*told}
+        ok = {_key(item) for item in self.done.checks if item.is_satisfied}
+        done_kinds = {*known}
         for remedy in chain.from_iterable(way(self, check) for way in _WAYS.get(check.id, ())):
-            if remedy.kind in found:
+            if remedy.kind in done_kinds:
                 continue
             is_review = remedy.change is _reviewed  # the same of every check
             done = self.reviewed if is_review else entered(self.done, remedy.change(self.data))
-            now = done and _State(done, self._may_run)
+            after = done and _State(done, self._may_run)
             must_be_ok = ok | {*map(_key, remedy.checks)}
-            if now and must_be_ok.isdisjoint(map(_key, now.failed)):
-                found.add(remedy.kind)
-                yield remedy, now
+            if after and must_be_ok.isdisjoint(map(_key, after.failed)):
+                done_kinds.add(remedy.kind)
+                yield remedy, after
 
     @property
     def data(self) -> ProjectInput:
@@ -232,13 +235,13 @@ def _review(state: _State, check: Check) -> Iterator[Remedy]:
     done = state.reviewed
     if done is None:
         return
-    still_ng = {_key(each) for each in done.checks if each.verdict is Verdict.NG}
-    cured = tuple(each for each in state.failed if each.arrays and _key(each) not in still_ng)
+    still_ng = {_key(item) for item in done.checks if item.verdict is Verdict.NG}
+    cured = tuple(item for item in state.failed if item.arrays and _key(item) not in still_ng)
     show = partial(pair, quantity=Quantity.DISPLACEMENT, us_first=state.data.us_first, show=no_less)
     designs = dict[str, str]()
     names = set(chain.from_iterable(cured_check.arrays for cured_check in cured))
     for name in sorted(names, key=name_order):
-        given_m, value_m = (by_id(each.arrays, name).permitted_m for each in (state.done, done))
+        given_m, value_m = (by_id(item.arrays, name).permitted_m for item in (state.done, done))
         if math.isnan(given_m) or value_m < given_m:
             instead = "" if math.isnan(given_m) else f" instead of {show(given_m)}"
             designs[name] = f"{show(value_m)}{instead}"
@@ -340,16 +343,19 @@ def _values(state: _State, check: Check) -> Iterator[Remedy]:
     """Yield the values that satisfy a check of one array and the like of others."""
     kind, field = _VALUES[check.id]
     is_least = kind is not RemedyKind.HEIGHT
-    checks = tuple(each for each in state.failed if each.id == check.id)
+    checks = tuple(item for item in state.failed if item.id == check.id)
     values, texts = dict[str, float](), dict[str, tuple[str, str]]()
-    for each in checks:
-        entered = getattr(by_id(state.done.arrays, each.subject).array, field)
-        needed = _needed(each, entered)
-        values[each.subject] = needed.value
+    for item in checks:
+        entered = getattr(by_id(state.done.arrays, item.subject).array, field)
+        needed = _needed(item, entered)
+        values[item.subject] = needed.value
         amounts = entered_amount(entered, needed.quantity), needed
-        texts[each.subject] = amount_texts(*amounts, state.data.us_first, is_at_least=is_least)
+        texts[item.subject] = amount_texts(*amounts, state.data.us_first, is_at_least=is_least)
     alike = grouped_by(texts, texts.__getitem__)
-    parts = [f"{wanted} for {ranged(of)} (entered: {had})" for (had, wanted), of in alike.items()]
+    parts = [
+        f"{needed_text} for {ranged(names)} (entered: {entered_text})"
+        for (entered_text, needed_text), names in alike.items()
+    ]
     words = "Provide {} of at least" if is_least else "Lower the {} to at most"
     if not any(map(math.isnan, values.values())):
         yield Remedy(

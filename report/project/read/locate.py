@@ -1,11 +1,11 @@
-"""Finds the tables of a workbook, by name or by their headings.
+"""Finds the inputs of a workbook by what they are called, wherever a user has moved them.
 
-Never uses positions or styles, which users change.
+A table by its headings and their units, a single input by its defined name or its label.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 
 from openpyxl.utils import get_column_letter
@@ -16,12 +16,15 @@ from report.project.read.positions import (
     FRESH,
     MAX_COLUMNS,
     CellPosition,
+    area_named,
     bounds_of,
+    check_uncovered,
     fields_by_label,
     found_at,
     heading_parts,
     label_key,
     labels,
+    labels_of,
     merged,
     sheets_titled,
     unit_size,
@@ -29,7 +32,7 @@ from report.project.read.positions import (
 from report.project.workbook import SECTIONS
 from report.project.workbook.answers import ANSWER_HEADINGS
 from report.project.workbook.earlier_workbooks import GONE, GoneInput
-from report.project.workbook.sections import SheetSection
+from report.project.workbook.entries import Entry, SheetSection
 from solver.errors import InputError, Problem
 
 MAX_ROWS = 2000
@@ -80,7 +83,7 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         for p in positions
         if p not in passed and label_key(sheet.cell(top, p.column).value) not in answers
     ]
-    columns, others, absent, problems = _columns(book, section, headings)
+    columns, further, absent, problems = _columns(book, section, headings)
     used = [column.number for column in columns.values()]
     # Tables may lie below each other on one sheet.
     last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
@@ -89,7 +92,7 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         heading=headings[0],
         columns=columns,
         rows=[row for row in range(top + 1, last_row + 1) if row not in below],
-        others=tuple(others),
+        others=tuple(further),
         gone=gone,
         absent=tuple(absent),
         problems=tuple(problems),
@@ -122,16 +125,16 @@ def table_named(book: OpenBook, section: SheetSection) -> _Place | None:
 
 def _headings(book: OpenBook, section: SheetSection) -> _Place:
     """Return the row with the most headings of a section; its own sheet is searched first."""
-    own = sheets_titled(book, section.sheet)
+    sheets = sheets_titled(book, section.sheet)
     renamed = _sheet_renamed(book, section)
-    for sheet in own or ([renamed] if renamed else book.book.worksheets):
+    for sheet in sheets or ([renamed] if renamed else book.book.worksheets):
         row, columns = _heading_row(book, section, sheet)
         # A row of another table has some headings in common, and not most of them.
         if len(columns) > len(section.entries) / 2:
             return sheet, min(columns), row, max(columns), range(0)
-    what = f"no table {section.table_name} and no row of its headings"
-    missing = "" if own else "the sheet is missing: "
-    raise InputError(f"{section.sheet}: {missing}{what}; {FRESH}")
+    lack = f"no table {section.table_name} and no row of its headings"
+    missing = "" if sheets else "the sheet is missing: "
+    raise InputError(f"{section.sheet}: {missing}{lack}; {FRESH}")
 
 
 def _heading_row(book: OpenBook, section: SheetSection, sheet: Worksheet) -> tuple[int, list[int]]:
@@ -147,7 +150,7 @@ def _heading_row(book: OpenBook, section: SheetSection, sheet: Worksheet) -> tup
 
 def _sheet_renamed(book: OpenBook, section: SheetSection) -> Worksheet | None:
     """Return the sheet with the title of no section that has all headings of one."""
-    titles = {other.sheet.casefold() for other in SECTIONS}
+    titles = {section_read.sheet.casefold() for section_read in SECTIONS}
     for sheet in book.book.worksheets:
         is_titled = sheet.title.strip().casefold() in titles
         if not is_titled and len(_heading_row(book, section, sheet)[1]) >= len(section.entries):
@@ -165,10 +168,10 @@ def is_table_absent(book: OpenBook, section: SheetSection) -> bool:
 def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:
     # Sections have headings in common, and one without a table must not read that of another.
     names = {str(table.name).casefold(): table.ref for table in sheet.tables.values()}
-    others = [
+    further = [
         ref for name, ref in names.items() if name.endswith("_table") and name != section.table_name
     ]
-    return {bounds[1] for ref in others if (bounds := bounds_of(ref))}
+    return {bounds[1] for ref in further if (bounds := bounds_of(ref))}
 
 
 def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
@@ -180,7 +183,7 @@ def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:
         far.append((extent.column_cell, f"beyond column {get_column_letter(MAX_COLUMNS)}"))
     if far:
         stray = [(f"contains data {where}", f"{sheet.title}!{cell}") for cell, where in far]
-        raise InputError([Problem(text, "clear it", at) for text, at in stray])
+        raise InputError([Problem(text, "clear it", address) for text, address in stray])
 
 
 def _columns(
@@ -190,13 +193,13 @@ def _columns(
     fields = fields_by_label(section)
     places: dict[str, CellPosition] = {}
     columns: dict[str, FieldColumn] = {}
-    others: list[CellPosition] = []
+    further: list[CellPosition] = []
     problems: list[Problem] = []
     for position in headings:
         text = found_at(book, position).value
         entry = fields.get(label_key(text))
         if entry is None:
-            others += [position] if text is not None else []
+            further += [position] if text is not None else []
         elif entry.name in places:
             twice = f"heading '{entry.heading}' appears twice, also in {places[entry.name].cell}"
             problems.append(Problem(twice, "keep one", position.address))
@@ -213,16 +216,16 @@ def _columns(
     absent: list[str] = []
     following = headings[0]  # where a missing one belongs: after that of the field before it
     for entry in section.entries:
-        if entry.name not in places and not entry.is_expected and not others:
+        if entry.name not in places and not entry.is_expected and not further:
             absent.append(entry.name)
         elif entry.name not in places:
             # With an unknown heading no field counts as absent: the heading may be a renamed one.
-            instead = f", '{found_at(book, following).value}' found" if following in others else ""
+            instead = f", '{found_at(book, following).value}' found" if following in further else ""
             missing = f"heading '{entry.heading}' is missing{instead}"
             remedy = f"write it here in its own column, or {FRESH}"
             problems.append(Problem(missing, remedy, following.address))
         following = replace(following, column=places.get(entry.name, following).column + 1)
-    return columns, others, absent, problems
+    return columns, further, absent, problems
 
 
 def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
@@ -269,3 +272,95 @@ def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:
         totals=totals.start if totals else 0,
         headings={label_key(sheet.cell(top, place.column).value): place for place in places},
     )
+
+
+def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:
+    """Return the cell of a single field by name, or else beside its label, or raise InputError."""
+    position = _position(book, section, entry)
+    if position is None:
+        raise InputError(
+            f"{section.sheet_of(entry.name)}: {entry.spoken} is missing"
+            f" (no name {section.cell_name(entry.name)} and no label '{entry.heading}'); {FRESH}"
+        )
+    return position
+
+
+def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosition]]:
+    """Return the cells with content beside the labels of each field on the sheets of a block."""
+    fields = fields_by_label(section)
+    by_field: dict[str, list[CellPosition]] = {}
+    for position, label in _labels(book, section):
+        if label in fields:
+            value_cell = replace(position, column=position.column + 1)
+            if not found_at(book, value_cell).is_blank:
+                by_field.setdefault(fields[label].name, []).append(value_cell)
+    return by_field
+
+
+def cell_as_column(
+    book: OpenBook, section: SheetSection, entry: Entry, position: CellPosition
+) -> FieldColumn:
+    """Return the unit of a single field; raise InputError if it is not accepted, or covered."""
+    if entry.kind not in (int, float):
+        check_uncovered(book, position)
+        return FieldColumn(number=position.column, unit="", si=1.0, heading=position)
+    named = _named(book, section.unit_name(entry.name))
+    unit_cell = named or replace(position, column=position.column + 1)
+    check_uncovered(book, position, unit_cell)
+    unit, si = unit_size(entry, found_at(book, unit_cell).shown.strip(), unit_cell.address)
+    return FieldColumn(number=position.column, unit=unit, si=si, heading=unit_cell)
+
+
+def added_later(book: OpenBook, section: SheetSection) -> tuple[Entry, ...]:
+    """Return the fields that a block lacks because its workbook is of a version before them."""
+    return tuple(
+        entry for entry in section.entries if entry.is_new and not _position(book, section, entry)
+    )
+
+
+def is_absent(book: OpenBook, section: SheetSection) -> bool:
+    """Whether a workbook has neither names nor labels of a section."""
+    if section.is_table:
+        return is_table_absent(book, section)
+    return not any(_position(book, section, entry) for entry in section.entries)
+
+
+def _named(book: OpenBook, name: str) -> CellPosition | None:
+    """Return a named range that is a single cell."""
+    area = area_named(book.book, name)
+    if area is None:
+        return None
+    title, (left, top, *end) = area
+    return CellPosition(title, top, left) if [left, top] == end else None
+
+
+def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition | None:
+    return _found(book, section, entry.name, labels_of(entry))
+
+
+def _found(
+    book: OpenBook, section: SheetSection, field: str, names: Set[str]
+) -> CellPosition | None:
+    """Return the cell that has the name of a field, or else is beside one of some labels."""
+    named = _named(book, section.cell_name(field))
+    if named:
+        return named
+    places = (position for position, label in _labels(book, section) if label in names)
+    label_cell = next(places, None)
+    return replace(label_cell, column=label_cell.column + 1) if label_cell else None
+
+
+def gone_cells(book: OpenBook, section: SheetSection) -> Iterator[tuple[GoneInput, CellPosition]]:
+    """Yield the cells that a block of an earlier workbook has for inputs that are no more."""
+    for gone in GONE.get(section.key, ()):
+        position = _found(book, section, gone.field, {label_key(gone.label)})
+        if position:
+            yield gone, position
+
+
+def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPosition, str]]:
+    """Yield what may be a label of a block, from its sheets."""
+    titles = [section.sheet_of(entry.name) for entry in section.entries]
+    for title in dict.fromkeys(titles):
+        for sheet in sheets_titled(book, title):
+            yield from labels(book, sheet)
