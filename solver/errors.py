@@ -1,13 +1,17 @@
 """The two kinds of error: what the user can fix, all of it at once, and a defect.
 
-InputError("dt_s is -0.1; give a number of seconds above 0").parts[0].remedy
-"give a number of seconds above 0"
+`InputError("dt_s is -0.1; give a number of seconds above 0")` has one problem, whose remedy is
+`give a number of seconds above 0`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import islice
+
+# Number of problems of one file or column that a message lists, and that it counts of the others.
+_MAX_LISTED, _MAX_COUNTED = 10, 10_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,3 +62,14 @@ class InputError(ValueError):
 
 class DefectError(RuntimeError):
     """An internal error, which only the developers can fix: a state assumed impossible."""
+
+
+def raise_any(problems: Iterable[str]) -> None:
+    """Raise the first problems with a count of the others, if there are any."""
+    remaining = iter(problems)
+    listed = list(islice(remaining, _MAX_LISTED))
+    if listed:
+        # The others are counted but not stored, and only to a limit: a file may have millions.
+        unlisted = sum(1 for _ in islice(remaining, _MAX_COUNTED + 1))
+        words = f"{unlisted} more" if unlisted <= _MAX_COUNTED else f"more than {_MAX_COUNTED} more"
+        raise InputError([*listed, f"... and {words}"] if unlisted else listed)

@@ -133,12 +133,12 @@ def governing(choices: Sequence[Series], text: str) -> Series:
 
     If the text, the test report of an array as entered, names reports, only these are considered.
     """
-    named = [choice for choice in choices if choice.report and _is_named(choice.report, text)]
+    named = []
+    for choice in choices:
+        pattern = rf"(?<!\w){re.escape(choice.report)}(?!\w)"
+        if choice.report and re.search(pattern, text, re.IGNORECASE):
+            named.append(choice)
     return min(named or choices, key=lambda choice: choice.mean)
-
-
-def _is_named(report: str, text: str) -> bool:
-    return bool(re.search(rf"(?<!\w){re.escape(report)}(?!\w)", text, re.IGNORECASE))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

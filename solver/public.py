@@ -20,7 +20,8 @@ from solver.records.processing import Processing, process
 from solver.records.record import Record, record_from_values, write_record
 from solver.records.spectrum import ResponseSpectrum, design_spectrum, factor_to_target, spectrum
 from solver.rivals.methods import METHODS
-from solver.rules.hazard import EDITIONS, RequiredSpectrum, ac156_horizontal, ac156_vertical
+from solver.rules.ac156 import RequiredSpectrum, ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS
 from solver.sliding.checked import history, motion, scene, slide, slide_history, solve
 from solver.sliding.method import Method, Outcome
 from solver.sliding.model_selection import Model, Settings, Solution

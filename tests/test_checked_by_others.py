@@ -13,8 +13,7 @@ import pytest
 from fixtures import packages
 from fixtures.paths import ROOT, TESTS
 from report.project.model.choices import RuleSetName
-from solver.building.structure import approximate_period_s
-from solver.rules.hazard import EDITIONS, component_force, seismic_parameters
+from solver.rules.hazard import EDITIONS, approximate_period_s, component_force, seismic_parameters
 from solver.rules.provisions import Neighbor, prescriptive_displacement, required_separation
 from solver.rules.rulesets import RULE_SETS
 from solver.rules.site_coefficients import BY_DEFAULT, F_A, F_V, site_coefficient

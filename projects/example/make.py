@@ -25,8 +25,9 @@ from projects.rows import (
 from report.project.model import ProjectInput
 from report.project.model.choices import UnitsFirst
 from report.project.write.template import write_template
-from solver.rules.hazard import EDITIONS, ac156_horizontal, ac156_vertical
-from solver.rules.provisions import RULE_SETS
+from solver.rules.ac156 import ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS
+from solver.rules.rulesets import RULE_SETS
 from solver.synthesis.suite import SuiteMotion, make_suite
 
 HERE = Path(__file__).resolve().parent

@@ -24,7 +24,7 @@ from report.project.model import ProjectInput
 from report.project.model.choices import UnitsFirst
 from report.project.write.template import write_template
 from report.suite.targets import ac156_targets
-from solver.rules.hazard import Tail
+from solver.rules.ac156 import Tail
 from solver.synthesis.suite import SuiteMotion, make_suite
 
 HERE = Path(__file__).resolve().parent

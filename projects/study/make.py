@@ -22,7 +22,7 @@ from report.study.study_input import (
 )
 from report.suite.targets import ac156_targets
 from solver.friction_tests import Surface
-from solver.rules.hazard import Tail
+from solver.rules.ac156 import Tail
 from solver.synthesis.suite import make_suite
 
 HERE = Path(__file__).resolve().parent

@@ -36,7 +36,7 @@ from report.runs import Runs, scene_key
 from report.text.grouping import grouped_by
 from report.text.units import nan_is_worst
 from solver.records.acceptance import Acceptance
-from solver.rules.provisions import RuleSet
+from solver.rules.rulesets import RuleSet
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

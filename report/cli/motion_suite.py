@@ -29,7 +29,7 @@ from report.suite.targets import (
 from report.text.command_line import called
 from report.text.counts import numbered
 from solver.errors import InputError
-from solver.rules.hazard import Tail
+from solver.rules.ac156 import Tail
 
 
 def generate_suite(

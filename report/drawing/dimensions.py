@@ -173,7 +173,9 @@ def _dimension(plan: PlanSheet, words: str, equal: Sequence[Lane]) -> None:
     long = width_in(words) + 0.06
     tall = LINE_IN - 0.02
     for overhang in (0.0, _OVERHANG_IN):
-        places = [(lane, shift) for lane in equal for shift in alongside(lane, long, overhang)]
+        places: list[tuple[Lane, float]] = []
+        for lane in equal:
+            places += [(lane, shift) for shift in alongside(lane, long, overhang)]
         frames = [lane.frame(shift, long, tall) for lane, shift in places]
         within = [lane.frame(shift, long, min(lane.narrow, tall)) for lane, shift in places]
         taken = plan.paper.placer.take_first(frames, within)

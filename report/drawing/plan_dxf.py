@@ -143,7 +143,7 @@ def write_dxf(plan: PlanDrawing) -> bytes:
 
 def _add_layout(document: Drawing, plan: PlanDrawing) -> None:
     """Add the layout: a window on the plan to scale, above the title block."""
-    from ezdxf.enums import TextEntityAlignment
+    from ezdxf.enums import TextEntityAlignment  # with `ezdxf`, as above
 
     document.layers.get(Layer.WINDOW.title).dxf.plot = 0
     wide, tall = _SHEETS[plan.is_feet]

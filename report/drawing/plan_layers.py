@@ -115,7 +115,7 @@ class PlacedTexts:
         lane, tall = lane_of(self.paper, gap), 1.5 * _CAP_IN
         # As wide as the library takes it, which interrupts the line behind it.
         long = max(_CAP_IN * len(words) + PAD_IN, _size(words)[0])
-        shifts = [s for over in (0.0, long) for s in alongside(lane, long, over)]
+        shifts = [*alongside(lane, long, 0.0), *alongside(lane, long, long)]
         frames = [lane.frame(shift, long, tall) for shift in shifts]
         within = [lane.frame(shift, long, min(lane.narrow, tall)) for shift in shifts]
         taken = self.paper.placer.take_first(frames, within)
@@ -175,11 +175,12 @@ def plan_drawing(assessment: Assessment) -> PlanDrawing:
         for line in drawn
     )
     texts = (*placed.texts, letter, *tables)
-    xs = [x for line in (*lines, *rules) for x, _ in line.points]
     ends = [text.at[0] + _wide(text.words, height) for text in tables if text.is_left]
+    for line in (*lines, *rules):
+        ends += [x for x, _ in line.points]
     fringe = 8.0 * height  # names of edges are outside of the roof
     low = extent.x_from_m / unit.si - fringe, min(foot, extent.y_from_m / unit.si - fringe)
-    high = max(*xs, *ends) + height, extent.y_to_m / unit.si + fringe
+    high = max(ends) + height, extent.y_to_m / unit.si + fringe
     long_in, tall_in = WINDOW_IN
     min_scale = max((high[0] - low[0]) / long_in, (high[1] - low[1]) / tall_in) * unit.si
     scale = round_scale(min_scale, is_feet)
@@ -281,11 +282,11 @@ def _table(
     lines = [
         PlanLine(layer=Layer.SCHEDULE, name="", points=ends, is_closed=False) for ends in rules
     ]
-    texts = [
-        PlanText(layer=layer, words=text, at=(x + 0.5 * height, y - 0.9 * height), is_left=True)
-        for (layer, row), y in zip(cells, tops[:-1], strict=True)
-        for text, x in zip(row, lefts[:-1], strict=True)
-    ]
+    texts = []
+    for (layer, row), y in zip(cells, tops[:-1], strict=True):
+        for text, x in zip(row, lefts[:-1], strict=True):
+            start = (x + 0.5 * height, y - 0.9 * height)
+            texts.append(PlanText(layer=layer, words=text, at=start, is_left=True))
     return lines, texts, (corner[0], tops[-1] - 2.0 * _LINE * height)
 
 

@@ -45,33 +45,17 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
 
     Raises `InputError` with the candidates, for what cannot be told.
     """
-    # An outline with the name of a row in the drawing is that row. The others are told by place
-    # among the rows that are left: by what they have in common, then by the nearest center of the
-    # same size. What is left is new.
     known = [*inputs["arrays"], *inputs["objects"]]
     rows = {row["id"]: row for row in known if "id" in row}
     groups = {row["id"]: _group(row.get("kind", "")) for row in inputs["objects"] if "id" in row}
-    was = shapes_of(inputs)
+    was, roof = shapes_of(inputs), roof_of(inputs)
     unit = Quantity.PLAN.us if us_first(inputs) else Quantity.PLAN.si
     drawn = (*plan.arrays, *plan.objects)
-    by_name = {(groups.get(name, _ARRAY), name.casefold()): name for name in was}
-    by_row: dict[int, str] = {}
-    for number, place in enumerate(drawn):
-        key = (_group(place.kind), place.name.casefold())
-        if key in by_name and not place.unnamed:
-            by_row[number] = by_name[key]
-    # Of a row whose name is not in the drawing only its group is known. Edges follow the roof.
-    keyed = [
-        (name if name in by_row.values() else groups.get(name, _ARRAY), shape)
-        for name, shape in was.items()
-        if groups.get(name) != _EDGE
-    ]
-    drawn_keyed = [
-        (by_row.get(k, _group(place.kind)), place.shape) for k, place in enumerate(drawn)
-    ]
-    named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
-    roof = roof_of(inputs)
-    move = whole_move((roof, plan.roof_shape), keyed, drawn_keyed, named)
+    # An outline with the name of a row in the drawing is that row. The others are told by place
+    # among the rows that remain: by what they have in common, then by the nearest center of the
+    # same size. What remains is new.
+    by_row = _by_name(drawn, was, groups)
+    move = _move_of_plan(plan, roof, was, groups, by_row)
     moved = move or Move()
     before = {name: moved.of(shape) for name, shape in was.items()}
     # An edge stays on its side of the roof, or of all that is in plan where no roof is.
@@ -89,28 +73,23 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
     for group in (_ARRAY, _OBJECT, _EDGE):
         numbers = [k for k, place in enumerate(drawn) if _group(place.kind) == group]
         names = [name for name in before if groups.get(name, _ARRAY) == group]
-        is_edge = group == _EDGE
         # By what they cover together first: a center alone may be nearer to a neighbor.
-        for score in (_common, _near if is_edge else _same_sized) if move else ():
+        for score in (_common, _near if group == _EDGE else _same_sized) if move else ():
             pairs: dict[tuple[int, str], float] = {}
             for k, name in product(numbers, names):
                 if k in by_row or name in by_row.values():
                     continue
+                if k in ways and (ways_before[name] * ways[k].conjugate()).real <= _SAME_WAY:
+                    continue
                 value = score(drawn[k], before[name])
-                is_same_way = (
-                    not is_edge or (ways_before[name] * ways[k].conjugate()).real > _SAME_WAY
-                )
-                if value > 0.0 and is_same_way:
+                if value > 0.0:
                     pairs[k, name] = value
             unclear += _tell(pairs, drawn, by_row, unit)
-        unmatched_rows = [
-            name for name in names if name not in by_row.values() and _is_drawn(rows[name])
-        ]
+        unmatched_rows = [n for n in names if n not in by_row.values() and _is_drawn(rows[n])]
         unmatched = [k for k in numbers if k not in by_row and drawn[k].unnamed and drawn[k].handle]
         if unmatched_rows and unmatched and not unclear:
-            unclear.append(
-                _either([drawn[k] for k in unmatched], unmatched_rows, unit) + ", or new"
-            )
+            candidates = _either([drawn[k] for k in unmatched], unmatched_rows, unit)
+            unclear.append(f"{candidates}, or new")
     if unclear:
         raise InputError([f"{text}: write its name inside of it as a text" for text in unclear])
     # Read after all groups: a row may still be found by its size.
@@ -125,6 +104,35 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
         row_shapes=was,
         unit=unit,
     )
+
+
+def _by_name(
+    drawn: Sequence[DrawnOutline], was: Mapping[str, Shape], groups: Mapping[str, str]
+) -> dict[int, str]:
+    """Return the rows of the outlines that the drawing names, by the number of the outline."""
+    names = {(groups.get(name, _ARRAY), name.casefold()): name for name in was}
+    keys = {k: (_group(line.kind), line.name.casefold()) for k, line in enumerate(drawn)}
+    return {k: names[key] for k, key in keys.items() if key in names and not drawn[k].unnamed}
+
+
+def _move_of_plan(
+    plan: RoofPlan,
+    roof: Shape | None,
+    was: Mapping[str, Shape],
+    groups: Mapping[str, str],
+    by_row: Mapping[int, str],
+) -> Move | None:
+    """Return how the plan as a whole has moved; None if it cannot be told."""
+    drawn = (*plan.arrays, *plan.objects)
+    # Of a row whose name is not in the drawing only its group is known. Edges follow the roof.
+    keyed = [
+        (name if name in by_row.values() else groups.get(name, _ARRAY), shape)
+        for name, shape in was.items()
+        if groups.get(name) != _EDGE
+    ]
+    drawn_keyed = [(by_row.get(k, _group(line.kind)), line.shape) for k, line in enumerate(drawn)]
+    named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
+    return whole_move((roof, plan.roof_shape), keyed, drawn_keyed, named)
 
 
 def _outward(edge: Shape, roof: Shape) -> complex:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import cycle
+from itertools import chain, cycle
 from typing import Any
 
 import matplotlib as mpl
@@ -47,7 +47,7 @@ def comparison(
         row_in = max(0.31, 0.16 * max(map(len, names)))
         height = 1.1 + row_in * len(groups)
         # 0.06 in for each letter of the longest line.
-        letters = max(len(line) for lines in names for line in lines)
+        letters = max(map(len, chain.from_iterable(names)))
         figure, axes = framed(height, 0.2 + 0.06 * letters, 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
             _compare(axes, row, group[0], first)

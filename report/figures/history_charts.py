@@ -87,10 +87,10 @@ class _Grid:
         self.columns = 2 if len(panels) in (1, 2, 4) else 3
         self.rows = math.ceil(len(panels) / self.columns)
         self.last = len(panels) - self.columns  # panels from here on are in the bottom row
-        drawn = [
-            line for history in self.followed if history for line in (history.u_m, history.across_m)
-        ]
-        reached = np.concatenate([[0.0], *drawn]) / unit.si
+        lines = [np.zeros(1)]
+        for history in filter(None, self.followed):
+            lines += [history.u_m, history.across_m]
+        reached = np.concatenate(lines) / unit.si
         self.ticks = _levels(float(reached.min()), float(reached.max()) or 1.0)
         self.low, self.high = self.ticks[0], self.ticks[-1]
         self.seconds = max(panel.motion.seconds for panel in panels)

@@ -6,6 +6,7 @@ Computes only the layout. Read `report.figures.base` first.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -31,13 +32,14 @@ def accelerations(motions: Sequence[Motion]) -> str:
     """Return the scaled accelerations of the motions over time, all at one scale."""
     # All panels share one pair of axes, with offsets: one for each would take ten times as long.
     scaled = [[m.scaled(a) / G_MPS2 for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
-    reach = max(float(np.abs(a_g).max()) for row in scaled for a_g in row if a_g.size) or 1.0
+    peaks = [float(np.abs(a_g).max()) for a_g in chain.from_iterable(scaled) if a_g.size]
+    reach = max(peaks) or 1.0
     seconds = max(m.dt_s * (len(m.ax_mps2) - 1) for m in motions)
     height = _ROW_IN * len(motions) + _TOP_IN + _FOOT_IN
     with style():
         rows = (-len(motions) - _FOOT_IN / _ROW_IN, _TOP_IN / _ROW_IN)
         names = [name_lines(motion.id) for motion in motions]
-        widest_in = max(width_in(line) for lines in names for line in lines)
+        widest_in = max(map(width_in, chain.from_iterable(names)))
         labels = max(_LABELS, len(_COLUMNS) * widest_in / (WIDTH_IN - widest_in))
         figure, axes = canvas(height, (-labels, len(_COLUMNS)), rows)
         _lines(axes, motions, scaled, reach, seconds)

@@ -6,6 +6,7 @@ Computes only the layout; legible in gray (line style and width carry the meanin
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from solver.model import Floats
 _ROW_IN, _TITLE_IN, _FOOT_IN, _TOP_IN = 0.6, 0.26, 0.5, 0.24
 _LEFT_IN, _FIRST_IN, _APART_IN, _RIGHT_IN = 0.46, 1.6, 0.52, 0.1
 _FEW_S, _MANY_S = (0.03, 0.1, 0.3, 1.0, 3.0, 10.0), (0.03, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)
-_LEVELS = tuple(step * 10.0**power for power in range(-4, 2) for step in (1, 2, 5))
+_LEVELS = tuple(step * 10.0**power for power, step in product(range(-4, 2), (1, 2, 5)))
 # A ratio beyond it is drawn on a logarithmic axis.
 _FACTOR = 3.0
 # Ordinate below which nothing is drawn [g].

@@ -21,18 +21,13 @@ from report.project.model.choices import Polarity, RecordedAt, Scaling
 from report.project.model.motion_input import BuildingInput, MotionInput, SpectrumPoint
 from report.text.units import G_MPS2
 from solver.building.roof import RoofMotion, shaking_to_roof
-from solver.building.structure import Building, approximate_period_s, building_of_periods
+from solver.building.structure import Building, building_of_periods
 from solver.model import Floats, Motion
 from solver.records.measures import Measures, measures
 from solver.records.record import NO_RECORD, Record, read_only
 from solver.records.spectrum import Target, design_spectrum, factor_to_target
-from solver.rules.hazard import (
-    RequiredSpectrum,
-    Tail,
-    ac156_horizontal,
-    ac156_vertical,
-    target_sa_g,
-)
+from solver.rules.ac156 import RequiredSpectrum, Tail, ac156_horizontal, ac156_vertical, target_sa_g
+from solver.rules.hazard import approximate_period_s
 
 OWN = "project-specific"
 

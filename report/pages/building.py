@@ -17,7 +17,7 @@ from report.project.model.motion_input import BuildingInput
 from report.text.grouping import grouped_by
 from report.text.units import G_MPS2, NO_BREAK, Quantity, number
 from solver.building.roof import RoofMotion
-from solver.building.structure import APPROXIMATE_PERIODS, FOOT_M
+from solver.rules.hazard import APPROXIMATE_PERIODS, FOOT_M
 from solver.rules.provisions import AnalysisValue
 
 SHOWN_MODES = 6

@@ -28,7 +28,7 @@ from report.typeset.equations import symbol
 from solver.model import Floats, Motion
 from solver.records.acceptance import N_AC156, N_SETS, N_SLIDING, POINTS_HZ
 from solver.records.processing import AS_RECORDED
-from solver.rules.hazard import Tail
+from solver.rules.ac156 import Tail
 from solver.rules.limit import Consequence
 
 

@@ -19,9 +19,8 @@ from report.project.model.choices import RiskCategory
 from report.project.model.site import Site
 from report.text.units import NO_BREAK, Quantity, number
 from report.typeset.equations import symbol
-from solver.building.structure import approximate_period_s
 from solver.rules import hazard
-from solver.rules.hazard import ComponentForce, HazardBasis, component_force
+from solver.rules.hazard import ComponentForce, HazardBasis, approximate_period_s, component_force
 
 _COLUMNS = (
     ("Description", 3.4), ("Symbol", 0.65), ("Value", 1.55, "right"), ("Source", 3.05),

@@ -20,11 +20,10 @@ from report.study.read_study import StudySheet
 from report.study.study_input import Intensity
 from report.text.counts import numbered
 from solver.bounds import ANNUAL_RATE, INTENSITY
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.formats.phrases import is_of_another
 from solver.formats.source import open_source
 from solver.model import Floats
-from solver.records.record import raise_any
 from solver.studies.rates import HazardCurve
 
 MAX_BYTES = 1_000_000

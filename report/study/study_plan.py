@@ -34,14 +34,13 @@ from report.study.study_motions import StudyMotions
 from solver.errors import InputError
 from solver.model import Floats
 from solver.rules.provisions import (
-    RULE_SETS,
     Basis,
-    RuleSet,
     analysis_floor_m,
     basis_for,
     factored,
     prescriptive_displacement,
 )
+from solver.rules.rulesets import RULE_SETS, RuleSet
 from solver.studies.curves import Statistics
 from solver.studies.predictive import Predictive, predictive
 from solver.studies.rates import HazardCurve

@@ -11,7 +11,7 @@ from report.suite.targets import SuiteTargets
 from solver.records.acceptance import Acceptance, acceptance
 from solver.records.measures import Measures, measures
 from solver.records.record import Record
-from solver.rules.hazard import target_sa_g
+from solver.rules.ac156 import target_sa_g
 from solver.sliding import checked
 from solver.synthesis.matching import SpectrumFit, spectrum_fit
 from solver.synthesis.suite import SuiteMotion

@@ -34,7 +34,7 @@ from report.suite.targets import SuiteTargets
 from solver.errors import InputError
 from solver.model import Floats
 from solver.records.record import record_csv
-from solver.rules.hazard import Target, target_sa_g
+from solver.rules.ac156 import Target, target_sa_g
 from solver.rules.limit import Limit
 from solver.synthesis.matching import BAND_HZ, spectrum_fit
 from solver.synthesis.suite import SuiteMotion, make_suite

@@ -14,15 +14,9 @@ from report.project.read.typed_text import choice_in
 from report.project.read.workbook_data import Sheet
 from report.suite.target_table import TargetTable
 from solver.errors import InputError
-from solver.rules.hazard import (
-    EDITIONS,
-    RequiredSpectrum,
-    Tail,
-    Target,
-    ac156_horizontal,
-    ac156_vertical,
-)
-from solver.rules.provisions import RULE_SETS
+from solver.rules.ac156 import RequiredSpectrum, Tail, Target, ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS
+from solver.rules.rulesets import RULE_SETS
 
 # Rule sets by their names on the command line.
 CODES = {rules.code: rules.name for rules in RULE_SETS.values()}

@@ -1,4 +1,4 @@
-"""Equations as pictures, and the markup of symbols and fractions in text.
+"""How an equation is set: as a picture, or its symbols and fractions as markup in text.
 
 Knows no values of a project: the templates add the numbers.
 """

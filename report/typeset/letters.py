@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from report.libraries import has_font_on_windows
 from report.project.read.workbook_data import Sheet
+from report.typeset.pdf import TEMPLATES
 from solver.errors import InputError, Problem
 
 if TYPE_CHECKING:
@@ -31,12 +32,8 @@ def undrawable(text: str, *, is_in_figures: bool = False) -> str:
         return ""
     letters = dict.fromkeys(_SURE.sub("", text))
     # The figures use the fonts of a package alone.
-    has_font = _is_shipped if is_in_figures else _has_font
-    return "".join(letter for letter in letters if not has_font(letter))
-
-
-def _has_font(letter: str) -> bool:
-    return _is_shipped(letter) or _is_on_machine(letter)
+    missing = [letter for letter in letters if not _is_shipped(letter)]
+    return "".join(c for c in missing if is_in_figures or not _is_on_machine(c))
 
 
 def _is_shipped(letter: str) -> bool:
@@ -46,9 +43,7 @@ def _is_shipped(letter: str) -> bool:
 @cache
 def _shipped() -> frozenset[int]:
     """Return the letters that every font of a package has."""
-    from fontTools.ttLib import TTFont
-
-    from report.typeset.pdf import TEMPLATES
+    from fontTools.ttLib import TTFont  # 0.1 s, and most workbooks have plain letters alone
 
     paths = sorted((TEMPLATES / "fonts").glob("*.ttf"))
     # Each of them: a heading is set in another file than its text.
@@ -121,9 +116,7 @@ def _advance_em(weight: str, letter: str) -> float:
 
 @cache
 def _font(weight: str) -> FT2Font:
-    from matplotlib.ft2font import FT2Font
-
-    from report.typeset.pdf import TEMPLATES
+    from matplotlib.ft2font import FT2Font  # with matplotlib, which what only checks needs not
 
     font = FT2Font(TEMPLATES / "fonts" / f"SourceSans3-{weight}.ttf")
     font.set_size(_PX, 72.0)

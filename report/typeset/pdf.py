@@ -1,7 +1,8 @@
 """From finished HTML to tagged PDF/A-3a, by the documented interface of the renderer.
 
 Reads only the HTML, `data:` addresses and the fonts and styles in the template folder. Any warning
-in the renderer's log is an internal error.
+in the renderer's log is an internal error. WeasyPrint is imported where it is used: after
+`load_renderer`, and not by what only asks where the templates are (half a second).
 """
 
 from __future__ import annotations

@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver.building.structure import Building
+from solver.errors import raise_any
 from solver.model import Floats, Motion
-from solver.records.record import raise_any, read_only
+from solver.records.record import read_only
 from solver.records.spectrum import refined
 
 # All neglected modes together may change the roof acceleration by this fraction of its peak.
@@ -122,9 +123,14 @@ def shaking_to_roof(
     if vertical.size:
         vertical = lengthened(vertical, math.ceil((count - 1) / steps) + 1)
         vertical = refined(vertical, steps)[:count]
+    horizontal = []
+    for motion in motions:
+        pad_s = motion.pad_s + (count - motion.a_mps2.size) * motion.dt_s
+        a = lengthened(motion.a_mps2, count)
+        horizontal.append(replace(motion, a_mps2=a, pad_s=pad_s))
     return RoofShaking(
         dt_s=dt_s / steps,
-        horizontal=tuple(_as_long(motion, count) for motion in motions),
+        horizontal=tuple(horizontal),
         vertical_mps2=read_only(vertical),
     )
 
@@ -175,11 +181,6 @@ def at_roof(motion: Motion, building: Building, transverse: Building | None = No
         ay_mps2=y[0] if y else motion.ay_mps2,
         az_mps2=roof.vertical_mps2,
     )
-
-
-def _as_long(motion: RoofMotion, count: int) -> RoofMotion:
-    more_s = (count - motion.a_mps2.size) * motion.dt_s
-    return replace(motion, a_mps2=lengthened(motion.a_mps2, count), pad_s=motion.pad_s + more_s)
 
 
 class _Cut(NamedTuple):

@@ -1,4 +1,6 @@
-"""Elastic buildings of a few modes, of a beam or of equal stories; approximate periods of ASCE 7.
+"""Elastic buildings of a few modes, as a beam or as equal stories.
+
+A building of one story is an oscillator; one of many nears a cantilever in shear and bending.
 
 Contains no motions (`solver.building.roof`). Read `building_of_periods` first.
 """
@@ -9,14 +11,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.model import Floats
-from solver.records.record import raise_any, read_only
+from solver.records.record import read_only
 
 # Largest finite lateral stiffness ratio; infinity is the shear beam.
 MOST_ALPHA0 = 1000.0
@@ -299,34 +300,3 @@ def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None
                 f"{MOST_DAMPING:g}"
             )
     raise_any(problems)
-
-
-# C_t and x of T_a = C_t h_n^x, h_n in feet: ASCE 7-16 and 7-22, 12.8.2.1, Table 12.8-2.
-APPROXIMATE_PERIODS = MappingProxyType(
-    {
-        "steel moment frame": (0.028, 0.8),
-        "concrete moment frame": (0.016, 0.9),
-        "steel eccentric or buckling-restrained braces": (0.03, 0.75),
-        "other": (0.02, 0.75),
-    }
-)
-
-FOOT_M = 0.3048
-
-
-def approximate_period_s(system: str, height_m: float) -> float:
-    """Return T_a = C_t h_n^x of ASCE 7, 12.8.2.1 (Eq. 12.8-7).
-
-    T_a is intentionally short, which is conservative for design forces but not necessarily for the
-    motion of a roof. The system is a key of `APPROXIMATE_PERIODS`.
-    """
-    problems = []
-    if system not in APPROXIMATE_PERIODS:
-        problems.append(
-            f"structure: found {system!r}; give one of {', '.join(APPROXIMATE_PERIODS)}"
-        )
-    if not 0.0 < height_m < math.inf:
-        problems.append(f"height: found {height_m} m; give a number above 0")
-    raise_any(problems)
-    coefficient, exponent = APPROXIMATE_PERIODS[system]
-    return float(coefficient * (height_m / FOOT_M) ** exponent)

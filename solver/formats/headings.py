@@ -122,7 +122,9 @@ def laid_out(source: Source) -> Layout:
     separator = separator_of(content)
     fields = [field.strip() for field in content.split(separator)]
     _check_first(source, first, fields)
-    remarks, width = _remarks(lines[:first]), len(fields)
+    plain = ((index, line.replace("#", " ").strip()) for index, line in enumerate(lines[:first]))
+    remarks = list(islice((row for row in plain if row[1]), _MAX_REMARKS))
+    width = len(fields)
     per_line = source.values_per_line or _told_across(lines, start, separator, remarks)
     headings, place, misfit = list[Heading](), -1, ""
     if not per_line:
@@ -174,12 +176,6 @@ def _told_across(
     widths = [len(row.split(separator)) for _, row in rows_of(lines, start)]
     # As many lines as samples would be a column.
     return widths[0] if sum(widths) == stated != len(widths) else 0
-
-
-def _remarks(lines: Sequence[str]) -> list[Row]:
-    """Index and text of every line above the first row, without comment signs."""
-    plain = ((index, line.replace("#", " ").strip()) for index, line in enumerate(lines))
-    return list(islice(((index, line) for index, line in plain if line), _MAX_REMARKS))
 
 
 def _headings(

@@ -19,10 +19,10 @@ from typing import TypeVar
 
 import numpy as np
 
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.formats.source import Source, Stated
 from solver.model import Floats
-from solver.records.record import BEYOND, is_finite_number, raise_any, shown
+from solver.records.record import BEYOND, is_finite_number, shown
 
 # ASCII alone: float would take the digits of other scripts as well.
 NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)

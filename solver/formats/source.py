@@ -12,17 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from solver.bounds import SENSITIVITY
-from solver.errors import InputError, Problem
+from solver.errors import InputError, Problem, raise_any
 from solver.file_checks import check_length, read_file
 from solver.formats.likely_kinds import LOOKED_AT, likely_bytes, likely_text
-from solver.records.record import (
-    UNIT_CHOICES,
-    is_finite_number,
-    is_raw,
-    raise_any,
-    shown,
-    unit_size,
-)
+from solver.records.record import UNIT_CHOICES, is_finite_number, is_raw, shown, unit_size
 from solver.suggestions import meant
 
 # Sequence number, then the quality of the data (SEED manual, fixed section of the header).

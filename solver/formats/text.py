@@ -14,7 +14,7 @@ from itertools import chain, islice
 
 import numpy as np
 
-from solver.errors import InputError, Problem
+from solver.errors import InputError, Problem, raise_any
 from solver.formats import phrases
 from solver.formats.channels import motion_file
 from solver.formats.columns import SIDE_BY_SIDE, magnitudes, pairs, remedy, rising
@@ -34,7 +34,7 @@ from solver.formats.record_file import MotionFile
 from solver.formats.source import Source
 from solver.formats.times import Even, is_even, sampled
 from solver.model import Floats
-from solver.records.record import BEYOND, HOLD, Record, raise_any, shown
+from solver.records.record import BEYOND, HOLD, Record, shown
 
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
 

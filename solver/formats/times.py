@@ -14,10 +14,10 @@ from itertools import product
 
 import numpy as np
 
-from solver.errors import InputError, Problem
+from solver.errors import InputError, Problem, raise_any
 from solver.formats.source import Source, Stated
 from solver.model import Floats
-from solver.records.record import fits, raise_any
+from solver.records.record import fits
 
 # Largest total number of samples in the columns of a file after resampling.
 MAX_SAMPLES = 2_000_000

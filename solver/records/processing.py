@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.model import Floats
-from solver.records.record import Record, own, raise_any
+from solver.records.record import Record, own
 
 MAX_DEGREE = 8
 MAX_ORDER = 12

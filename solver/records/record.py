@@ -1,4 +1,6 @@
-"""Acceleration records: created from values, and written as csv; units as files print them.
+"""An acceleration record: created from values, checked, and written as csv.
+
+`record_from_values("pulse", [0.0, 0.4, -0.4, 0.0], units="g", dt_s=0.01)` is one of 30 ms.
 
 Reads no files (`solver.formats`), knows no code rules (`solver.rules.provisions`) and generates no
 motions (`solver.synthesis`). Read `Record` first, then `record_from_values`.
@@ -6,10 +8,9 @@ motions (`solver.synthesis`). Read `Record` first, then `record_from_values`.
 
 from __future__ import annotations
 
-import itertools
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from solver.bounds import PEAK
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.file_writing import write_whole
 from solver.model import INCH_M, STANDARD_GRAVITY_MPS2, Floats
 
@@ -34,11 +35,6 @@ DECIMALS = {"g": 5, "m/s2": 4, "cm/s2": 2, "mm/s2": 1}
 
 # Words of the comment that states the hold of the envelope of a generated record.
 HOLD = "generated; hold of the envelope"
-
-# Number of problems of one file or column that a message lists; the others are counted.
-MAX_PROBLEMS = 10
-
-MAX_COUNTED = 10_000
 
 # Numbers of this size or more are refused, so that no change of units can overflow.
 BEYOND = 1e300
@@ -189,13 +185,13 @@ def record_csv(
 def _decimals(values: Floats, minimum: int, within: float) -> int:
     """Decimals, `minimum` or more, that keep rounding `within` that fraction of the peak value."""
     peak = np.abs(values).max()
+    if math.isinf(within) or peak == 0.0:
+        return minimum
+    for decimals in range(minimum, 300):
+        if np.abs(values - np.round(values, decimals)).max() <= within * peak:
+            return decimals
     # With more than about 300 decimals the power of ten underflows.
-    enough = (k for k in range(minimum, 300) if _off(values, k) <= within * peak)
-    return minimum if math.isinf(within) or peak == 0.0 else next(enough, 300)
-
-
-def _off(values: Floats, decimals: int) -> float:
-    return float(np.abs(values - np.round(values, decimals)).max())
+    return 300
 
 
 def check_gaps(name: str, a_mps2: Floats) -> None:
@@ -265,17 +261,6 @@ def shown(value: object) -> str:
     """Return the value as a message shows it: quoted, and shortened if long."""
     text = repr(value)
     return text if len(text) <= 32 else f"{text[:28]}...{text[-1]}"
-
-
-def raise_any(problems: Iterable[str]) -> None:
-    """Raise the first problems with a count of the others, if there are any."""
-    remaining = iter(problems)
-    listed = list(itertools.islice(remaining, MAX_PROBLEMS))
-    if listed:
-        # The others are counted but not stored, and only to a limit: a file may have millions.
-        unlisted = sum(1 for _ in itertools.islice(remaining, MAX_COUNTED + 1))
-        words = f"{unlisted} more" if unlisted <= MAX_COUNTED else f"more than {MAX_COUNTED} more"
-        raise InputError([*listed, f"... and {words}"] if unlisted else listed)
 
 
 def _check_arguments(name: str, units: str, dt_s: float) -> None:

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.model import Floats, Motion
-from solver.records.record import UNITS, Record, raise_any, read_only
+from solver.records.record import UNITS, Record, read_only
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -1,18 +1,20 @@
-"""Seismic design parameters of ASCE 7 (ground motion values, SDC, F_p), and spectra of AC156.
+"""Seismic design parameters of ASCE 7: ground motion values, SDC, T_a and F_p.
 
-The edition of these parameters is independent of the rule set: PV1-2012 is used with any.
-Independent of motions. Read `EDITIONS`, then `SeismicParameters`, then `ac156_horizontal`.
+With S_S = 1.271 g and F_a = 1.2, S_MS is 1.525 g and S_DS 1.017 g.
+
+The edition of these parameters is independent of the rule set: PV1-2012 is used with any. Read
+`EDITIONS`, then `SeismicParameters`.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from types import MappingProxyType
 
-import numpy as np
-
-from solver.model import Floats
+from solver.errors import raise_any
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -248,133 +250,32 @@ def period_height_factor(z_over_h: float, period_s: float) -> float:
     return 1.0 + a1 * z_over_h + a2 * z_over_h**10
 
 
-# Corner points of a target spectrum: increasing frequencies [Hz], and accelerations [g].
-Target = tuple[Floats, Floats]
+# C_t and x of T_a = C_t h_n^x, h_n in feet: ASCE 7-16 and 7-22, 12.8.2.1, Table 12.8-2.
+APPROXIMATE_PERIODS = MappingProxyType(
+    {
+        "steel moment frame": (0.028, 0.8),
+        "concrete moment frame": (0.016, 0.9),
+        "steel eccentric or buckling-restrained braces": (0.03, 0.75),
+        "other": (0.02, 0.75),
+    }
+)
+
+FOOT_M = 0.3048
 
 
-def target_sa_g(target: Target, freq_hz: Floats) -> Floats:
-    """Target acceleration [g] at frequencies [Hz]: log-log between corners, constant beyond."""
-    corners_hz, corners_g = (np.log(np.asarray(column)) for column in target)
-    return np.asarray(np.exp(np.interp(np.log(freq_hz), corners_hz, corners_g)), dtype=np.float64)
+def approximate_period_s(system: str, height_m: float) -> float:
+    """Return T_a = C_t h_n^x of ASCE 7, 12.8.2.1 (Eq. 12.8-7).
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RequiredSpectrum:
-    """AC156 required response spectrum: corner points, joined by straight lines on log-log axes.
-
-    Attributes
-    ----------
-    freq_hz, sa_g : array, shape (4,)
+    T_a is intentionally short, which is conservative for design forces but not necessarily for the
+    motion of a roof. The system is a key of `APPROXIMATE_PERIODS`.
     """
-
-    freq_hz: Floats
-    sa_g: Floats
-
-    @property
-    def corners(self) -> Target:
-        """Frequencies [Hz] and accelerations [g], as `solver.make_suite` takes them."""
-        return self.freq_hz, self.sa_g
-
-    def at(self, freq_hz: Floats) -> Floats:
-        """Return ordinates [g] at frequencies [Hz], constant outside the corners."""
-        return target_sa_g(self.corners, freq_hz)
-
-
-class Tail(StrEnum):
-    """Shape of an AC156 spectrum below 1.3 Hz, the range that causes long slips."""
-
-    AC156 = "AC156"
-    RECIPROCAL = "1/T"
-
-    @property
-    def sentence(self) -> str:
-        """The rule for the reader."""
-        return _TAIL_SENTENCES[self]
-
-
-_FLEXIBLE_FROM_HZ = 1.3
-
-_TAIL_SENTENCES = {
-    Tail.AC156: "the AC156 line below 1.3 Hz (beyond 0.77 s), to 0.1 A_FLX at 0.1 Hz (10 s)",
-    Tail.RECIPROCAL: "1/T beyond 0.77 s (below 1.3 Hz), to 0.077 A_FLX at 10 s (0.1 Hz)",
-}
-
-# Log-log from 1.3 Hz, where it is 1: AC156 has 0.1 at 0.1 Hz, and 1/T has 0.1 Hz / 1.3 Hz.
-_TAIL_AT_10_S = {Tail.AC156: 0.1, Tail.RECIPROCAL: 0.1 / _FLEXIBLE_FROM_HZ}
-
-
-def ac156_horizontal(
-    edition: Edition, *, s_ds_g: float, z_over_h: float, tail: Tail = Tail.AC156
-) -> RequiredSpectrum:
-    """Return the horizontal AC156 spectrum, 5 % damping.
-
-    A_FLX = S_DS (1 + 2 z/h) <= 1.6 S_DS, A_RIG = 0.4 S_DS (1 + 2 z/h); with ASCE 7-22
-    A_FLX = S_DS H_f/R_mu <= 1.6 S_DS, A_RIG = 0.4 S_DS H_f/R_mu, H_f = 1 + 2.5 z/h, R_mu = 1.3
-    above grade and 1 at grade.
-    PV1-2012 permits 1/T beyond 0.77 s in place of the AC156 line.
-
-    Parameters
-    ----------
-    edition
-        A value of `solver.EDITIONS`, such as ``EDITIONS["ASCE 7-16"]``.
-    s_ds_g : float
-        Design spectral acceleration at short periods [g].
-    z_over_h : float
-        Height of the array / height of the roof, from 0 to 1.
-    tail : str
-        Below 1.3 Hz: ``"AC156"`` or ``"1/T"``.
-
-    Returns
-    -------
-    RequiredSpectrum
-        Four corner points, [Hz] and [g].
-
-    Raises
-    ------
-    KeyError
-        For a tail that is not one of these.
-
-    Examples
-    --------
-    >>> from solver import EDITIONS
-    >>> ac156_horizontal(EDITIONS["ASCE 7-16"], s_ds_g=1.2, z_over_h=1.0).sa_g.round(3)
-    array([0.192, 1.92 , 1.92 , 1.44 ])
-    """
-    # The cap of 1.6 S_DS is on A_FLX alone: at the roof A_RIG keeps the whole ratio.
-    ratio = edition.amplification.at(z_over_h)
-    return _corners(min(ratio, 1.6) * s_ds_g, 0.4 * ratio * s_ds_g, tail)
-
-
-def ac156_vertical(*, s_ds_g: float, tail: Tail = Tail.AC156) -> RequiredSpectrum:
-    """Return the vertical AC156 spectrum, 5 % damping: 0.67 S_DS and 0.27 S_DS.
-
-    Parameters
-    ----------
-    s_ds_g : float
-        Design spectral acceleration at short periods [g].
-    tail : str
-        Below 1.3 Hz: ``"AC156"`` or ``"1/T"``.
-
-    Returns
-    -------
-    RequiredSpectrum
-        Four corner points, [Hz] and [g].
-
-    Raises
-    ------
-    KeyError
-        For a tail that is not one of these.
-
-    Examples
-    --------
-    >>> ac156_vertical(s_ds_g=1.2).sa_g.round(3)
-    array([0.08 , 0.804, 0.804, 0.324])
-    """
-    return _corners(0.67 * s_ds_g, 0.27 * s_ds_g, tail)
-
-
-def _corners(flexible_g: float, rigid_g: float, tail: Tail) -> RequiredSpectrum:
-    return RequiredSpectrum(
-        freq_hz=np.array([0.1, _FLEXIBLE_FROM_HZ, 8.3, 33.3]),
-        sa_g=np.array([_TAIL_AT_10_S[tail] * flexible_g, flexible_g, flexible_g, rigid_g]),
-    )
+    problems = []
+    if system not in APPROXIMATE_PERIODS:
+        problems.append(
+            f"structure: found {system!r}; give one of {', '.join(APPROXIMATE_PERIODS)}"
+        )
+    if not 0.0 < height_m < math.inf:
+        problems.append(f"height: found {height_m} m; give a number above 0")
+    raise_any(problems)
+    coefficient, exponent = APPROXIMATE_PERIODS[system]
+    return float(coefficient * (height_m / FOOT_M) ** exponent)

@@ -16,11 +16,7 @@ from typing import TypeVar
 
 from solver.model import Floats
 from solver.rules.limit import Limit, Measure, at_least
-from solver.rules.rulesets import ALLOWED, LowProfileLength
-from solver.rules.rulesets import RULE_SETS as RULE_SETS
-from solver.rules.rulesets import Confidence as Confidence
-from solver.rules.rulesets import Provision as Provision
-from solver.rules.rulesets import RuleSet as RuleSet
+from solver.rules.rulesets import ALLOWED, LowProfileLength, RuleSet
 
 Lengths = TypeVar("Lengths", float, Floats)
 

@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.formats.phrases import parse
 from solver.model import Floats, Friction, Motion, Scene, coulomb
-from solver.records.record import NO_RECORD, UNITS, Record, has_gravity, raise_any, read_only
+from solver.records.record import NO_RECORD, UNITS, Record, has_gravity, read_only
 from solver.records.record import unit_size as records_unit
 from solver.sliding import two_axes
 from solver.sliding.method import ANY_NUMBER, EXACT, WANTED, Method, Parameters, methods

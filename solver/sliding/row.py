@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from solver.errors import raise_any
 from solver.forces import forces
 from solver.kernels import row as kernel
 from solver.model import Floats, Scene, SlideResult, Status, coulomb
-from solver.records.record import raise_any
 from solver.sliding import one_axis
 from solver.sliding.arguments import is_zero_or_more
 

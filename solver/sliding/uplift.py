@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from solver.errors import raise_any
 from solver.forces import friction_demand, normal_mps2
 from solver.model import Floats, Friction, Scene
-from solver.records.record import raise_any
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -88,11 +88,10 @@ class Campaign:
     @cached_property
     def columns(self) -> tuple[tuple[int, Orientation], ...]:
         """Motion and orientation of the rows of a case."""
-        return tuple(
-            (number, orientation)
-            for number, motion in enumerate(self.motions[0])
-            for orientation in motion.orientations
-        )
+        columns: list[tuple[int, Orientation]] = []
+        for number, motion in enumerate(self.motions[0]):
+            columns += [(number, orientation) for orientation in motion.orientations]
+        return tuple(columns)
 
     @property
     def rows(self) -> int:

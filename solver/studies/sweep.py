@@ -16,10 +16,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from solver.errors import raise_any
 from solver.kernels import one_axis
 from solver.kernels.compiler import THREADS
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion, Scene, SlideResult, Status, coulomb
-from solver.records.record import Record, raise_any
+from solver.records.record import Record
 from solver.sliding import two_axes
 from solver.sliding.arguments import (
     Given,

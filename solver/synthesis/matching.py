@@ -13,12 +13,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from solver.errors import raise_any
 from solver.kernels import oscillator
 from solver.model import Floats
 from solver.records.acceptance import POINTS_HZ
-from solver.records.record import DECIMALS, UNITS, Record, raise_any, read_only
+from solver.records.record import DECIMALS, UNITS, Record, read_only
 from solver.records.spectrum import response_spectrum
-from solver.rules.hazard import Target, target_sa_g
+from solver.rules.ac156 import Target, target_sa_g
 
 DAMPING = 0.05
 # Band over which a target must be given.

@@ -21,7 +21,7 @@ from solver.model import Floats
 from solver.records.acceptance import MOST_CORRELATION
 from solver.records.measures import correlation, strength
 from solver.records.record import Record
-from solver.rules.hazard import Target
+from solver.rules.ac156 import Target
 from solver.synthesis.matching import (
     MatchingFrame,
     SpectrumFit,

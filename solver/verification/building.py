@@ -20,12 +20,10 @@ import numpy as np
 
 from solver.building.roof import RoofMotion, absolute_accelerations, to_roof
 from solver.building.structure import (
-    FOOT_M,
     MOST_ALPHA0,
     MOST_DAMPING,
     Building,
     Modes,
-    approximate_period_s,
     beam_modes,
     building_of_modes,
     building_of_periods,
@@ -34,6 +32,7 @@ from solver.errors import InputError
 from solver.formats import read_record
 from solver.model import STANDARD_GRAVITY_MPS2, Floats
 from solver.records.spectrum import response_spectrum
+from solver.rules.hazard import FOOT_M, approximate_period_s
 from solver.sliding.checked import slide
 from solver.verification.evidence import RoofComparison, RoofPrediction
 from solver.verification.study_cases import best_of, unexplained

@@ -17,13 +17,13 @@ from solver.records.processing import Processing, process
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 from solver.rules.provisions import (
-    RULE_SETS,
     Neighbor,
     analysis_value,
     interconnection_strength_n,
     prescriptive_displacement,
     required_separation,
 )
+from solver.rules.rulesets import RULE_SETS
 from solver.sliding.checked import scene
 from solver.sliding.uplift import Supports, tipping, uplift
 from solver.verification.evidence import Verified

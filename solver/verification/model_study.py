@@ -114,7 +114,8 @@ def model_evidence(triples: Sequence[Motion], *, quick: bool) -> ModelEvidence:
 
 def study(triples: Sequence[Motion], *, quick: bool) -> ModelStudy:
     """Run every scene of every motion with every orientation by every model."""
-    slopes, mus, ppas = _axes(quick)
+    axes: tuple[tuple[float, ...], ...] = (SLOPES_DEG, MUS, PPAS_G)
+    slopes, mus, ppas = ((values[0], values[-1]) for values in axes) if quick else axes
     row_ppa_g = ppas[len(ppas) // 2]
     headings = triples[0].orientations
     scenes = scenes_of(triples, grid(slopes, mus, ppas), headings)
@@ -136,12 +137,6 @@ def study(triples: Sequence[Motion], *, quick: bool) -> ModelStudy:
         row_ppa_g=row_ppa_g,
         largest_error=max(errors, default=math.nan),
     )
-
-
-def _axes(quick: bool) -> tuple[tuple[float, ...], ...]:
-    """Return the slopes, friction coefficients and PPAs of the scenes."""
-    axes = SLOPES_DEG, MUS, PPAS_G
-    return tuple((values[0], values[-1]) for values in axes) if quick else axes
 
 
 def _changes(

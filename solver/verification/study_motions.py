@@ -16,7 +16,7 @@ from solver.errors import InputError
 from solver.formats import read_motion_file
 from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion
 from solver.records.record import Record, read_only
-from solver.rules.hazard import Target
+from solver.rules.ac156 import Target
 from solver.sliding.checked import motion
 from solver.synthesis.suite import SuiteMotion, make_suite
 

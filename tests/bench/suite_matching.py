@@ -7,7 +7,8 @@ import time
 
 from measure import SMOKE, figure
 
-from solver.rules.hazard import EDITIONS, ac156_horizontal, ac156_vertical
+from solver.rules.ac156 import ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS
 from solver.synthesis.matching import spectrum_fit
 from solver.synthesis.suite import make_suite
 

@@ -26,7 +26,7 @@ from report.project.model.input_rows import Place
 from report.text.amounts import Amount
 from report.text.units import nan_is_worst
 from solver.rules.limit import PROGRAM, Consequence
-from solver.rules.provisions import Provision
+from solver.rules.rulesets import Provision
 
 # Id of the limits on the motions.
 MOTIONS_ID = "motions"

@@ -8,7 +8,8 @@ from report.assessment.checks.check import Actor, Check, condition, stated
 from report.assessment.design.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
 from report.project.model.input_rows import Place
-from solver.rules.provisions import RULE_SETS, review_lifts_slope
+from solver.rules.provisions import review_lifts_slope
+from solver.rules.rulesets import RULE_SETS
 
 
 def of_confirmations(data: ProjectInput) -> Iterator[Check]:

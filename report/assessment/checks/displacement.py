@@ -15,7 +15,8 @@ from report.text.letter_case import lowered
 from report.text.names import ranged
 from report.text.units import Quantity, no_less, pair
 from solver.model import Status
-from solver.rules.provisions import RuleSet, review_lifts_slope
+from solver.rules.provisions import review_lifts_slope
+from solver.rules.rulesets import RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.assessment import Assessment

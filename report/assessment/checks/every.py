@@ -24,7 +24,7 @@ from report.motions.prepare import Shaking
 from report.project.model import ProjectInput
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence
-from solver.rules.provisions import RuleSet
+from solver.rules.rulesets import RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.assessment import Assessment

@@ -19,8 +19,8 @@ from report.text.amounts import limit_amounts
 from report.text.letter_case import lowered
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence, Limit, Measure
-from solver.rules.provisions import RULE_SETS, RuleSet, building_checks
-from solver.rules.rulesets import ALLOWED, Provision
+from solver.rules.provisions import building_checks
+from solver.rules.rulesets import ALLOWED, RULE_SETS, Provision, RuleSet
 
 
 def of_building(data: ProjectInput, rules: RuleSet) -> Iterator[Check]:

@@ -35,7 +35,8 @@ from report.project.model.array import Array
 from report.runs import MotionRun, OrientedRun
 from report.text.units import nan_is_worst
 from solver.rules import provisions
-from solver.rules.provisions import AnalysisValue, Basis, Prescriptive, RuleSet
+from solver.rules.provisions import AnalysisValue, Basis, Prescriptive
+from solver.rules.rulesets import RuleSet
 from solver.sliding.uplift import Supports, Tipping, Uplift, tipping_at
 
 # Of an array without runs: nothing is known of its normal force.

@@ -22,7 +22,8 @@ from report.project.model.choices import DistanceBasis
 from report.project.model.roof import Clearance, RoofObject
 from report.text.units import nan_is_worst
 from solver.rules import provisions
-from solver.rules.provisions import Neighbor, Provision, RuleSet
+from solver.rules.provisions import Neighbor
+from solver.rules.rulesets import Provision, RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.assessment import Assessment

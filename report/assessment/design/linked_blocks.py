@@ -20,7 +20,8 @@ from report.runs import Runs
 from report.text.units import nan_is_worst
 from solver.model import Motion, Orientation, SlideResult, Status
 from solver.rules import provisions
-from solver.rules.provisions import AnalysisValue, RuleSet
+from solver.rules.provisions import AnalysisValue
+from solver.rules.rulesets import RuleSet
 from solver.sliding import model_selection, one_axis
 from solver.sliding.row import BlockRow, RowResult, slide_row
 

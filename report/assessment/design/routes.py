@@ -13,7 +13,8 @@ from report.project.model.array import Array
 from report.project.model.choices import Statistic
 from solver.rules import provisions
 from solver.rules.limit import Limit
-from solver.rules.provisions import Basis, Prescriptive, RuleSet
+from solver.rules.provisions import Basis, Prescriptive
+from solver.rules.rulesets import RULE_SETS, RuleSet
 
 # In place of a design displacement by a route that is not permitted, or beside it.
 NOT_PERMITTED = "not permitted"
@@ -56,7 +57,7 @@ class RouteLimits:
         return (*self.checks, *self.of_route)
 
 
-SEAOC = provisions.RULE_SETS["SEAOC PV1-2012"]
+SEAOC = RULE_SETS["SEAOC PV1-2012"]
 
 
 def prescriptive_of(data: ProjectInput, rules: RuleSet) -> Prescriptive:

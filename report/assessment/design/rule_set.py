@@ -8,8 +8,8 @@ from dataclasses import asdict, replace
 from report.project.model import ProjectInput
 from report.project.model.choices import RuleSetName, Statistic
 from solver.rules.hazard import REFERENCED
-from solver.rules.provisions import RULE_SETS, Basis, RuleSet
-from solver.rules.rulesets import IBC_SECTION, IBC_SLOPE
+from solver.rules.provisions import Basis
+from solver.rules.rulesets import IBC_SECTION, IBC_SLOPE, RULE_SETS, RuleSet
 
 # Mark of a number that an override or a departure changes.
 OVERRIDDEN = "‡"

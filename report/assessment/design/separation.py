@@ -21,7 +21,8 @@ from report.project.model.roof import RoofObject
 from report.text.amounts import capacity, demand, shown_in_order
 from report.text.units import Show, ratio
 from solver.rules import provisions
-from solver.rules.provisions import Neighbor, RuleSet
+from solver.rules.provisions import Neighbor
+from solver.rules.rulesets import RuleSet
 
 if TYPE_CHECKING:
     from report.assessment.design.arrays import ArrayAssessment

@@ -18,6 +18,7 @@ from report.project.model.shapes import Point, Shape, closest
 from solver.model import INCH_M
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor
+from solver.rules.rulesets import RULE_SETS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,8 +100,7 @@ def keep_clear_mark(assessment: Assessment, array: ArrayAssessment) -> str:
     if math.isnan(keep_clear_m(assessment, array)):
         return ""
     factor, plain = (
-        rules["separation_fixed"]
-        for rules in (assessment.rules, provisions.RULE_SETS[assessment.rules.name])
+        rules["separation_fixed"] for rules in (assessment.rules, RULE_SETS[assessment.rules.name])
     )
     return array.overridden.design or mark_of(factor, plain)
 

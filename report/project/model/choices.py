@@ -11,9 +11,8 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from solver.building.structure import APPROXIMATE_PERIODS
 from solver.records.record import UNIT_CHOICES
-from solver.rules.hazard import EDITIONS
+from solver.rules.hazard import APPROXIMATE_PERIODS, EDITIONS
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import RULE_SETS
 

@@ -22,7 +22,7 @@ from report.project.model.choices import (
     Text,
 )
 from solver.bounds import ORDINATE
-from solver.rules.hazard import Tail
+from solver.rules.ac156 import Tail
 
 
 class MotionInput(Frozen):

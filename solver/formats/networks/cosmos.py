@@ -14,12 +14,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.formats import channels
 from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
-from solver.records.record import Record, raise_any, shown, unit_size
+from solver.records.record import Record, shown, unit_size
 
 # Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
 # tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the

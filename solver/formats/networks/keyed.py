@@ -15,7 +15,7 @@ from itertools import chain
 
 import numpy as np
 
-from solver.errors import InputError
+from solver.errors import InputError, raise_any
 from solver.formats import phrases
 from solver.formats.channels import (
     centered_peak_notes,
@@ -30,7 +30,7 @@ from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats
-from solver.records.record import Record, raise_any, shown, unit_size
+from solver.records.record import Record, shown, unit_size
 
 # Source: INGV, DYNA 1.0 and 1.2, the heading of the Engineering Strong-Motion database, esm-db.eu,
 # and of ITACA, whose older files name the component `COMPONENT`; isesd.hi.is, Datafile Format (the

@@ -36,7 +36,7 @@ from report.cli.main import main
 from report.motions.prepare import prepare
 from report.project.model.choices import ClearanceSource, Direction, ObjectKind, UnitsFirst
 from report.project.read.read import read
-from solver.rules.provisions import RULE_SETS
+from solver.rules.rulesets import RULE_SETS
 
 HEADING = "Clearances/heading/Clearance source"
 PLACED = [row for row in SECTIONS["objects"] if row["id"] != "OLD"]

@@ -22,7 +22,8 @@ from solver.records.measures import measures
 from solver.records.processing import Processing
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
-from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
+from solver.rules.ac156 import Tail, ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS
 
 G = 9.80665
 GROUND = {"recorded_at": "ground"}

@@ -31,7 +31,8 @@ from report.project.write.template import write_template
 from solver.formats import read_record
 from solver.friction_tests import series
 from solver.records.spectrum import response_spectrum
-from solver.rules.hazard import EDITIONS, ac156_horizontal, ac156_vertical
+from solver.rules.ac156 import ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS
 from solver.synthesis.suite import make_suite
 
 PROJECTS = ROOT / "projects"

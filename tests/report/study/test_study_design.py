@@ -21,12 +21,8 @@ from report.study.run_study import planned, run_study
 from report.study.study_input import Intensity, Mat, RuleSetName, StudyArray
 from report.study.study_results import STATISTICS
 from report.study.wording import both, headline, sentence
-from solver.rules.provisions import (
-    RULE_SETS,
-    analysis_floor_m,
-    analysis_value,
-    prescriptive_displacement,
-)
+from solver.rules.provisions import analysis_floor_m, analysis_value, prescriptive_displacement
+from solver.rules.rulesets import RULE_SETS
 from solver.studies.fragility import Lognormal
 
 S_DS = 1.0

@@ -20,7 +20,7 @@ from report.results.publish import STAMP
 from report.suite.target_table import MAX_ROWS, read_target
 from report.suite.targets import ac156_targets, site_targets
 from solver.errors import InputError
-from solver.rules.hazard import Tail
+from solver.rules.ac156 import Tail
 
 
 def test_the_target_of_a_suite_is_the_site_of_the_workbook_with_its_cells_and_edition(tmp_path):

@@ -8,13 +8,8 @@ import pytest
 
 from fixtures.errors import input_problems
 from fixtures.marks import by_day
-from solver.building.structure import (
-    FOOT_M,
-    approximate_period_s,
-    beam_modes,
-    floor_stiffness,
-    story_modes,
-)
+from solver.building.structure import beam_modes, floor_stiffness, story_modes
+from solver.rules.hazard import FOOT_M, approximate_period_s
 
 ALPHAS = [0.0, 0.3, 1.0, 2.0, 5.0, 12.5, 30.0, 200.0]
 

@@ -19,7 +19,7 @@ from solver.formats import read_record
 from solver.records import spectrum
 from solver.records.record import UNITS, Record, record_from_values, write_record
 from solver.records.spectrum import PERIODS_S, design_spectrum, factor_to_target, response_spectrum
-from solver.rules.hazard import ac156_vertical, target_sa_g
+from solver.rules.ac156 import ac156_vertical, target_sa_g
 
 G = 9.80665
 

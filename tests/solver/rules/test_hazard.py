@@ -4,11 +4,11 @@ import math
 
 import pytest
 
-from solver.building.structure import FOOT_M, approximate_period_s
+from solver.rules.ac156 import ac156_horizontal, ac156_vertical
 from solver.rules.hazard import (
     EDITIONS,
-    ac156_horizontal,
-    ac156_vertical,
+    FOOT_M,
+    approximate_period_s,
     component_force,
     design_categories,
     period_height_factor,

@@ -11,7 +11,8 @@ import pytest
 from fixtures.errors import input_problems
 from fixtures.paths import DATA
 from solver.errors import InputError
-from solver.rules.hazard import EDITIONS, Tail, ac156_horizontal, ac156_vertical
+from solver.rules.ac156 import Tail, ac156_horizontal, ac156_vertical
+from solver.rules.hazard import EDITIONS
 from solver.rules.limit import MOTIONS, PROGRAM, Limit, Measure
 from solver.rules.provisions import (
     Basis,

@@ -18,7 +18,7 @@ from solver.records.acceptance import acceptance
 from solver.records.measures import measures
 from solver.records.record import Record, write_record
 from solver.records.spectrum import response_spectrum
-from solver.rules.hazard import target_sa_g
+from solver.rules.ac156 import target_sa_g
 from solver.synthesis import matching, suite
 from solver.synthesis.matching import make_frame, spectrum_fit
 from solver.synthesis.suite import NOISE, make_suite, synthesize
