@@ -57,7 +57,7 @@ export function showProject({ project: { name, file, sha256, software, is_exampl
 
 /** Name what the page shows, and its file. */
 export function named(name, ...file) {
-  part("project-name").textContent = name;
+  part("project-name").textContent = part("project-name").title = name;
   replace(part("project-file"), file);
   document.title = `${name} – Roofslip`;
 }

@@ -1,12 +1,17 @@
-"""The layout of the page from 320 to 1920 pixels, as at any zoom, and in print."""
+"""The layout of the page from 320 to 1920 pixels, as at any zoom, and in print; what axe finds."""
 
 import io
+import re
+import shutil
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from pypdf import PdfReader
 
 from fixtures.browser import at_rest, moved, opened, quiet_page
 from fixtures.marks import by_day
+from fixtures.paths import ROOT
+from fixtures.workbooks import edit, type_into
 
 WIDTHS = by_day([1366, 390, *range(320, 1921, 40)], 2)
 LEAST_PX = 24
@@ -20,15 +25,20 @@ FAULTS = """(least) => {
   const scrolls = ({ one }) => one.closest(".results, .wide, .problem-list");
   const isSmall = ({ box }) => box.width < least - 0.1 || box.height < least - 0.1;
   const isOutside = ({ box }) => box.left < -0.5 || box.right > innerWidth + 0.5;
-  const isCut = ({ one }) => one.matches("button") && one.scrollWidth > one.clientWidth + 1;
+  // What is cut without a title, and does not scroll, cannot be read.
+  const isCut = (one) => one.checkVisibility() && one.scrollWidth > one.clientWidth + 1
+    && (one.matches("button") || getComputedStyle(one).overflowX === "hidden")
+    && !one.closest("[title], .visually-hidden, svg, input");
   const meets = (from, to) => Math.min(...to) - Math.max(...from) > 1;
+  const list = (one) => one.closest("#reasons"); // it opens over what is below it
   const isOver = ({ one, box }, { one: other, box: at }) => !one.contains(other)
-    && !other.contains(one) && meets([box.left, at.left], [box.right, at.right])
+    && !other.contains(one) && list(one) === list(other)
+    && meets([box.left, at.left], [box.right, at.right])
     && meets([box.top, at.top], [box.bottom, at.bottom]);
   const found = {
     small: all.filter(isSmall).map((each) => [name(each), each.box.width, each.box.height]),
     outside: all.filter((each) => !scrolls(each) && isOutside(each)).map(name),
-    cut: all.filter(isCut).map(name),
+    cut: [...document.querySelectorAll("body *")].filter(isCut).map((one) => name({ one })),
     over: all.flatMap((each, k) => all.slice(k + 1).filter((other) => isOver(each, other))
       .map((other) => [name(each), name(other)])),
     sideways: [document.documentElement.scrollWidth].filter((wide) => wide > innerWidth),
@@ -56,6 +66,98 @@ def shown(browser, address):
         opened(page, address)
         at_rest(page)
         yield page
+
+
+LONG = "of the roof north of the expansion jt"
+
+
+@pytest.fixture(scope="module")
+def crowded(tmp_path_factory):
+    """The campus with 61 clearances too short, one of its 30 arrays with a long name."""
+    folder = tmp_path_factory.mktemp("crowded") / "campus"
+    shutil.copytree(ROOT / "projects" / "campus", folder, ignore=shutil.ignore_patterns("out"))
+    cells = {f"Clearances/{row}/Provided clearance": 50 for row in range(1, 62)}
+    edit(type_into(folder / "input.xlsx", cells), rename)
+    return folder
+
+
+def rename(book):
+    rows = (*book["Arrays"].iter_rows(), *book["Clearances"].iter_rows())
+    for cell in (cell for row in rows for cell in row if cell.value == "A9"):
+        cell.value = f"A9 {LONG}"
+
+
+def opened_crowded(page, address, folder):
+    page.goto(address, timeout=60_000)
+    page.wait_for_selector("body[data-phase=rest]", timeout=60_000)
+    page.set_input_files("#folder", folder)
+    page.get_by_role("heading", name="Campus").wait_for(timeout=60_000)
+    at_rest(page)
+
+
+def states(page, folder):
+    """Yield the page in each of its states, and leave it as it was."""
+
+    def named(name):
+        return page.get_by_role("button", name=name)
+
+    def open_all(inside):
+        folded = page.locator(f"{inside} details:not([open]) > summary")
+        folded.evaluate_all("(all) => all.forEach((one) => one.click())")
+
+    def back():
+        named(re.compile("^Back")).click()
+        page.get_by_role("heading", name="Inputs").wait_for()
+        assert page.get_by_role("region", name="Next step").is_hidden()  # that of the other
+
+    yield "at rest"
+    named("Causes and conditions").click()
+    open_all("#reasons")
+    yield "causes open"
+    page.keyboard.press("Escape")
+    open_all("#results")
+    named("A1 to A2").click()
+    yield "arrays open, a clearance picked"
+    named("Edit workbook").click()
+    named("Fill in and check").wait_for()
+    open_all("#problems")
+    yield "fields"
+    back()
+    faulty = type_into(
+        shutil.copy(folder / "input.xlsx", folder.parent / "faulty.xlsx"),
+        {f"Arrays/A{number}/CG height": "low" for number in (1, 2, 3)},
+    )
+    page.set_input_files("#files", faulty)
+    page.get_by_text("8 more with the same remedy").wait_for()
+    open_all("#problems")
+    yield "a faulty workbook without its records"
+    back()
+    named("New project").click()
+    page.get_by_text("no array is given").wait_for()
+    yield "a new project"
+    back()
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_wrong_with_61_clearances_ng(browser, address, crowded, scheme):
+    rules = {"resultTypes": ["violations"], "rules": {"target-size": {"enabled": True}}}
+    with quiet_page(browser, color_scheme=scheme) as page:
+        opened_crowded(page, address, crowded)
+        assert page.locator("#clearances").get_by_text("NG", exact=True).count() == 61
+        for state in states(page, crowded):
+            assert Axe().run(page, options=rules).generate_snapshot() == "", state
+
+
+@pytest.mark.nightly
+def test_it_stays_so_with_30_arrays_and_61_clearances_ng(browser, address, crowded):
+    with quiet_page(browser) as page:
+        opened_crowded(page, address, crowded)
+        for wide in (320, 720, 1152, 1920):
+            page.set_viewport_size({"width": wide, "height": 800})
+            page.wait_for_timeout(300)  # a sheet for this width
+            for state in states(page, crowded):
+                assert faults(page) == [], (wide, state)
 
 
 @pytest.mark.parametrize("wide", WIDTHS)
