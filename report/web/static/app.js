@@ -70,13 +70,20 @@ session.draws(onChange(["picked"], ({ picked }) => {
 }));
 session.draws(onChange(["phase", "answer"], findTurns));
 
-part("back").addEventListener("click", () => showProject(state));
+part("back").addEventListener("click", () => {
+  dropped = state.project.files;
+  offer(state.project);
+  showProject(state);
+});
 part("new").addEventListener("click", () => startNew().catch(fail));
 part("edit").addEventListener("click", () => editTables().catch(fail));
 part("check").addEventListener("click", () => fillCells().catch(fail));
 part("save-filled").addEventListener("click", () => fillCells().then(saveFilled).catch(fail));
-part("example").addEventListener("click", () => opening(api.example, { words: "Opening the example …" }));
-part("add-clearances").addEventListener("click", () => opening(api.addClearances, { valuesOf: () => state.values }));
+part("example").addEventListener("click", () => {
+  dropped = null;
+  opening(api.example, { words: "Opening the example …" });
+});
+part("add-clearances").addEventListener("click", () => changing(api.addClearances, { valuesOf: () => state.values }).catch(fail));
 for (const key of ["array", "motion"]) part(key).addEventListener("change", ({ target }) => session.set({ [key]: target.value }));
 document.querySelector(".skip").addEventListener("click", (event) => {
   event.preventDefault(); // else it would take the values out of the address
@@ -103,6 +110,7 @@ fromAddress(() => api.enter());
 function fromAddress(begin = async () => {}) {
   const [, id = ""] = /^\/p\/(\w+)\//.exec(location.pathname) ?? [];
   const fragment = location.hash;
+  dropped = null;
   return opening(() => begin().then(() => api.state(id)), {
     valuesOf: (project) => {
       awaited = id && project.id !== id ? { id, fragment } : null;
@@ -124,6 +132,13 @@ function take(given) {
 function putBack({ name, blob }) {
   const [workbook] = dropped.filter(({ path }) => path.split("/").at(-1) === name).toSorted((a, b) => a.path.split("/").length - b.path.split("/").length);
   dropped = dropped.map((one) => (one === workbook ? { ...one, file: blob } : one));
+  if (!part("workspace").hidden) state.project.files = dropped;
+}
+
+// The project that is open is replaced by a copy of it, which is what is sent again.
+async function changing(fetched, options) {
+  await opening(fetched, options);
+  if (dropped && !part("workspace").hidden) putBack(await api.workbook({}));
 }
 
 // A workbook without inputs, in the units of the country.
@@ -142,9 +157,9 @@ async function editTables() {
 
 // Check the workbook with what is typed in it.
 async function fillCells() {
+  const before = typed;
   if (isEdited) {
-    const before = typed;
-    await opening(() => api.edit(before), { words: "Checking the workbook …" });
+    await changing(() => api.edit(before), { words: "Checking the workbook …" });
     // With errors it is still a change of what is open.
     if (part("workspace").hidden) [isEdited, typed] = [true, Object.assign(typed, before, typed)];
     return;
@@ -157,12 +172,14 @@ async function fillCells() {
     },
     { words: "Checking the workbook …" },
   );
-  if (next) putBack(await api.filledWorkbook());
+  if (!next) return;
+  putBack(await api.filledWorkbook());
+  Object.assign(typed, { ...before, ...typed }); // in a zip the workbook stays as it was
 }
 
-function saveFilled() {
-  const workbook = dropped.find(({ path }) => path.endsWith(".xlsx"));
-  save(workbook.file, workbook.path.split("/").at(-1));
+async function saveFilled() {
+  const { blob, name } = await api.filledWorkbook();
+  save(blob, name);
 }
 
 function showBusy(text) {
@@ -195,17 +212,22 @@ function valuesAwaited(project) {
   return found;
 }
 
-function open(next, valuesOf) {
+// What a workbook lacks, and what of it can be made here.
+function offer(next) {
   motions.offer(next.lacks[0] === "motions" ? dropped : null);
   offerDrawing(dropped, dropped && next.drawing);
   showSteps(next);
+}
+
+function open(next, valuesOf) {
+  offer(next);
   if (next.problems.length > 0) {
     typed = showErrors(next, state);
     [part("save-filled").hidden, isEdited] = [false, false];
     faulty = next.problems.flatMap(({ row }) => (row ? [row.cells[row.at]] : []));
     return;
   }
-  const project = { ...next, ...next.project };
+  const project = { ...next, ...next.project, files: dropped };
   const values = valuesOf(project);
   part("other-project").hidden = !awaited;
   part("other-project-name").textContent = project.name;

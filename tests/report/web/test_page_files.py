@@ -76,6 +76,48 @@ def test_errors_are_listed_by_cell_beside_a_picture_of_the_row(page, tmp_path):
     assert page.inner_text("#problems p").startswith("Only the workbook was uploaded.")
 
 
+def edited(page):
+    """Open the fields of the tables of the project."""
+    page.get_by_role("button", name="Edit workbook").click()
+    page.get_by_text("Arrays", exact=True).click()
+    return page.get_by_label("Friction coefficient, E9", exact=True)
+
+
+@pytest.mark.nightly
+def test_what_was_edited_stays_when_records_follow(page, tmp_path):
+    sent(page, CONDITIONS, tmp_path / "small")
+    page.wait_for_selector("h1:has-text('Small Warehouse')")
+    page.get_by_role("button", name="New project").click()
+    page.get_by_text("no array is given").wait_for()
+    page.get_by_role("button", name="Back to").click()
+    assert page.get_by_role("region", name="Next step").is_hidden()  # that of the new one
+    edited(page).fill("0.41")
+    page.get_by_role("button", name="Fill in and check").click()
+    page.wait_for_selector("#controls [type=number][placeholder=various]")
+    page.set_input_files("#files", tmp_path / "small" / "records" / "RM1-x.csv")
+    page.wait_for_selector("#busy:visible")
+    page.wait_for_selector("#busy", state="hidden")
+    assert edited(page).input_value() == "0.41"
+
+
+@pytest.mark.nightly
+def test_a_zip_with_two_errors_is_filled_in_one_after_the_other(page, tmp_path):
+    project = shutil.copytree(CONDITIONS, tmp_path / "a", ignore=shutil.ignore_patterns("out"))
+    cells = {"Arrays/A1/CG height": "low", "Arrays/A2/Slope": "steep"}
+    type_into(project / "input.xlsx", cells)
+    page.set_input_files("#files", shutil.make_archive(tmp_path / "sent", "zip", project))
+    page.get_by_text("CG height is 'low'").wait_for()
+    page.get_by_label("CG height is 'low'").fill("9")
+    page.get_by_role("button", name="Fill in and check").click()
+    page.get_by_text("CG height is 'low'").wait_for(state="detached")
+    assert page.get_by_text("slope is 'steep'").is_visible()
+    page.get_by_label("slope is 'steep'").fill("0.25")
+    name, content = saved(page, page.get_by_role("button", name="Fill in and save").click)
+    assert page.inner_text("h1").startswith("Small Warehouse")
+    (tmp_path / name).write_bytes(content)
+    assert read(tmp_path / name).project.arrays[0].cg_height_m == pytest.approx(9 * INCH_M)
+
+
 @pytest.mark.nightly
 def test_what_is_sent_is_told_before_the_server_answers_and_the_example_as_well(page, tmp_path):
     held = []
