@@ -104,10 +104,7 @@ def answer(
                 *(_missing(near, fmt, verdict) for near in missing),
             ],
         },
-        "bars": {
-            "heads": ["Motion", "Bar", "PRD"],
-            "arrays": {item.id: _bars(marks, item, designs[item.id]) for item in arrays},
-        },
+        "bars": {item.id: _bars(marks, item, designs[item.id]) for item in arrays},
         "tips": _tips(marks, designs, gaps),
         "plan": plan(marks, designs, (gaps, missing), verdict, ratios, room_px),
     }

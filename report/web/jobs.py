@@ -36,6 +36,7 @@ from report.web.answers import answer
 from report.web.controls import shown
 from report.web.fields import problems, tables, typed_cells
 from report.web.open_project import OpenProject, open_project, reference_of
+from report.web.parts import drawn
 from report.web.plan import USUAL_PX, stamp
 from report.web.worker import INTERNAL, is_full
 from solver.errors import InputError
@@ -79,7 +80,6 @@ def state(workbook: Path, job: Json) -> Json:
         lacks = {"lacks": _lacks(workbook), "drawing": _drawing(workbook)}
         return {"project": None, "answer": None, **found, **lacks}
     near = [pair for pair in opened.assessed().pairs if pair.kind is not NearbyKind.BARE_EDGE]
-    answered = answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX})
     return {
         "project": {
             "name": opened.sheet.project.project.name,
@@ -93,13 +93,12 @@ def state(workbook: Path, job: Json) -> Json:
         ],
         "problems": [],
         "drawing": _drawing(workbook),
-        "warnings": [line["text"] for line in answered["reasons"] if line["level"] == "warning"],
         **opened.controls,
         "views": {
             "arrays": [array.id for array in opened.sheet.project.arrays],
             "motions": [motion.id for motion in opened.shaking.motions],
         },
-        "answer": answered,
+        "answer": answer_at(workbook, {"values": {}, "moving": False, "room": USUAL_PX}),
     }
 
 
@@ -118,8 +117,8 @@ def answer_at(workbook: Path, job: Json) -> Json:
         reply = given.moving(job.get("reference", {}))
     else:
         reply = given.assessed(Extent.WHOLE if job.get("whole", True) else Extent.AS_GIVEN)
-    shows = answer(reply, is_provisional=job["moving"], room_px=job["room"])
-    return {**shows, "shown": shown(given)}
+    found = answer(reply, is_provisional=job["moving"], room_px=job["room"])
+    return {**drawn(found), "shown": shown(given)}
 
 
 def prepare(workbook: Path, _: Json) -> Json:

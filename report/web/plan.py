@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
+
+from markupsafe import Markup, escape
 
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.drawing.layers import Layer
 from report.drawing.on_paper import plan_on_paper
-from report.drawing.paper_items import TYPE_PT, Arrow, Circle, Item, Look, Mark, Outline, Text
+from report.drawing.paper_items import TYPE_PT, Arrow, Circle, Look, Mark, Outline, Text
 from report.drawing.sheet import Paper, PlanSize, unit_format
 from report.pages.clearance_tables import NumberedGap
 from report.pages.marks import Marks
@@ -97,20 +99,12 @@ def plan(
         ],
         "size_px": [round(paper.wide * _PX), round(paper.tall * _PX)],
         "rooms_px": [0 if wide_px == _LEAST_PX else wide_px, more_px],
-        "items": [_shaded(_element(paper, item), ratios) for item in paper.items],
+        "drawn": Markup("".join(_elements(paper, ratios))),
     }
 
 
 SHADES = (0.5, 0.75, 0.9, 1.0)
 """D/C up to which each shade goes; one more is above the last."""
-
-
-def _shaded(element: dict[str, Any], ratios: Mapping[str, float]) -> Mapping[str, Any]:
-    """Return an element of the plan with the shade of its D/C."""
-    ratio = ratios.get(element.get("data-key") or "", math.nan)
-    if element["class"] == "array" and not math.isnan(ratio):
-        element["class"] += f" is-shade-{bisect_left(SHADES, ratio)}"
-    return element
 
 
 def _sheet_px(room_px: int) -> tuple[int, int]:
@@ -137,8 +131,10 @@ def described(gap: NumberedGap, marks: Marks) -> str:
     return f"{name}: provided {provided}, required {required}"
 
 
-def _element(paper: Paper, item: Item) -> dict[str, Any]:
-    """Return an element: its kind, its attributes and its text; its key is that of a tip."""
+def _elements(paper: Paper, ratios: Mapping[str, float]) -> Iterator[str]:
+    """Yield what is on paper as elements of SVG; a key is that of a tip."""
+    written = {item.words for item in paper.items if isinstance(item, Text)}
+    unnamed = list[str]()  # until the plan is zoomed
 
     def at(point: Point) -> tuple[float, float]:
         # SVG counts down from the top, the plan up from the bottom.
@@ -147,30 +143,34 @@ def _element(paper: Paper, item: Item) -> dict[str, Any]:
     def path(points: Sequence[Point]) -> str:
         return "M" + "L".join(f"{x:g} {y:g}" for x, y in map(at, points))
 
-    if isinstance(item, Text):
-        x, y = at(item.at)
-        look = ("strong" if item.is_bold else "label") + (" middle" if item.is_centered else "")
-        return {
-            "kind": "text",
-            "class": "ng-box" if item.is_light else look,
-            "x": x,
-            "y": y,
-            "transform": f"rotate(-90 {x:g} {y:g})" if item.is_upright else None,
-            "text": item.words,
-        }
-    if isinstance(item, Circle):
-        x, y = at(item.center)
-        radius = round(item.radius * _PX, 1)
-        return {
-            "kind": "circle",
-            "class": _CLASSES[item.look],
-            "data-key": f"#{item.name}" if item.name else None,
-            "cx": x,
-            "cy": y,
-            "r": radius,
-        }
-    if isinstance(item, Arrow):
-        return {"kind": "path", "class": "arrow", "d": path((item.tail, item.tip))}
-    d = f"{path(item.points)}Z" if isinstance(item, Outline) else "".join(map(path, item.lines))
-    key = item.name or None
-    return {"kind": "path", "class": _CLASSES[item.look], "data-key": key, "d": d}
+    for item in paper.items:
+        if isinstance(item, Text):
+            x, y = at(item.at)
+            look = ("strong" if item.is_bold else "label") + (" middle" if item.is_centered else "")
+            turn = f' transform="rotate(-90 {x:g} {y:g})"' if item.is_upright else ""
+            place = f'class="{"ng-box" if item.is_light else look}" x="{x:g}" y="{y:g}"{turn}'
+            yield f"<text {place}>{escape(item.words)}</text>"
+        elif isinstance(item, Circle):
+            x, y = at(item.center)
+            place = f'cx="{x:g}" cy="{y:g}" r="{round(item.radius * _PX, 1):g}"'
+            key = _key(f"#{item.name}" if item.name else "")
+            yield f'<circle class="{_CLASSES[item.look]}"{key} {place}/>'
+        elif isinstance(item, Arrow):
+            yield f'<path class="arrow" d="{path((item.tail, item.tip))}"/>'
+        else:
+            lines = (item.points,) if isinstance(item, Outline) else item.lines
+            d = "".join(map(path, lines)) + "Z" * isinstance(item, Outline)
+            look, ratio = _CLASSES[item.look], ratios.get(item.name, math.nan)
+            if look == "array" and not math.isnan(ratio):
+                look += f" is-shade-{bisect_left(SHADES, ratio)}"
+            yield f'<path class="{look}"{_key(item.name)} d="{d}"/>'
+            if item.name and item.name not in written:
+                along = zip(*(at(point) for line in lines for point in line), strict=True)
+                x, y = ((min(values) + max(values)) / 2 for values in along)
+                name = escape(item.name)
+                unnamed.append(f'<text class="small-name" x="{x:g}" y="{y:g}">{name}</text>')
+    yield from unnamed
+
+
+def _key(name: str) -> str:
+    return f' data-key="{escape(name)}"' if name else ""

@@ -3,8 +3,8 @@
 import { createApi } from "./api.js";
 import { changes, fromFragment, toAddress } from "./changes.js";
 import { mountHeadline } from "./headline.js";
-import { named, showErrors, showProject, showSteps, showTables, warnings } from "./heading.js";
-import { button, html, replace } from "./make.js";
+import { named, showErrors, showProject, showSteps, showTables } from "./heading.js";
+import { button, html, parsed, replace } from "./make.js";
 import { mountDrawing, mountMotions } from "./offers.js";
 import { mountTakeaway } from "./package.js";
 import { mountPlan } from "./plan.js";
@@ -239,7 +239,7 @@ function open(next, valuesOf) {
 function showControls({ project }) {
   if (!project) return;
   showProject(state);
-  replace(part("warnings"), warnings(project.warnings));
+  replace(part("warnings"), ...parsed("div", project.answer.html.warnings).childNodes);
   for (const [key, ids] of Object.entries({ array: project.views.arrays, motion: project.views.motions })) {
     replace(part(key), ids.map((id) => html("option", { value: id }, id)));
   }

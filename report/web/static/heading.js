@@ -61,10 +61,3 @@ export function named(name, ...file) {
   replace(part("project-file"), file);
   document.title = `${name} – Roofslip`;
 }
-
-/** Return the warnings and notes of a workbook, folded. */
-export function warnings(all) {
-  if (all.length === 0) return null;
-  const lines = all.map((text) => html("li", {}, text));
-  return html("details", {}, html("summary", {}, `Warnings and notes: ${all.length}`), html("ul", {}, lines));
-}

@@ -1,19 +1,13 @@
 // The headline, which stays in sight: the verdict, the check that governs with its D/C, from where on it
 // would be another one, what to do next, and the causes folded below it.
 
-import { html, note, replace, words } from "./make.js";
+import { html, note, parsed, replace, words } from "./make.js";
 import { said } from "./changes.js";
+import { withBefore } from "./results.js";
 import { onChange } from "./session.js";
-import { term } from "./terms.js";
 
-const FULL_BAR = 1.5; // D/C at the end of its bar
 const FORMER = "The values below are from before the change.";
 const EASING = ["friction", "clearance", "slope", "intensity", "s_ds"]; // in the order in which they are told
-
-/** Return the tag of a verdict, with the look that it has in the package; a dash while there is none. */
-export function tag(verdict) {
-  return verdict ? html("strong", { class: `tag is-${verdict.look}` }, verdict.text) : html("span", { class: "note" }, "–");
-}
 
 /** Draw the headline in an element; `announce` says a sentence to a screen reader. */
 export function mountHeadline(element, session, announce) {
@@ -31,7 +25,9 @@ export function mountHeadline(element, session, announce) {
     line.title = (phase === "rest" && answer.line) || line.textContent.trim();
     more.textContent = count;
     replace(listed, causes);
-    replace(worst, shows === "former" || !answer?.worst ? null : ratioOf(answer.worst, project.answer?.worst));
+    replace(worst, shows === "former" || !answer ? null : nodes(answer.html.worst));
+    const [ratio, was] = [worst, parsed("p", project.answer?.html.worst ?? "")].map((one) => one.querySelector("strong"));
+    if (ratio && ratio.dataset.of === was?.dataset.of) withBefore(ratio, was);
     const next = phase === "rest" ? [turnedWords(state), answer.next && ["Next: ", words(answer.next)]] : [];
     replace(enough, next.filter(Boolean).map((one) => html("span", {}, one)));
     enough.title = enough.textContent;
@@ -49,32 +45,21 @@ function parts({ answer, phase, shows, failure }) {
     const reasons = (failure.problems ?? []).map(({ text }) => text);
     const unanswered = failure.isUnreached ? "the server does not answer" : "the server gave no answer";
     const why = reasons.length > 0 ? "these values have no answer" : unanswered;
-    return { told: `No verdict: ${[why, ...reasons].join(": ")}.`, causes: list(reasons.map((text) => ({ text }))), count: "Reasons" };
+    return { told: `No verdict: ${[why, ...reasons].join(": ")}.`, causes: html("ul", {}, reasons.map((text) => html("li", {}, words(text)))), count: "Reasons" };
   }
   if (phase === "rest") {
-    const { verdict, worst, line, verdict_text: text, reasons, pending, model_text: model } = answer;
-    const count = reasons.filter(({ level }) => level !== "remedy").length;
-    return { told: [tag(verdict), " ", verdict.look === "provisional" ? line : worst && words(worst.text)], causes: [html("p", {}, text), list(reasons), pending && note(pending), note(model)], count: `Causes and conditions: ${count}` };
+    const { count, html: drawn } = answer;
+    return { told: nodes(drawn.headline), causes: nodes(drawn.reasons), count: `Causes and conditions: ${count}` };
   }
   const isFormer = shows !== "provisional";
   const moving = isFormer ? `Computing; no verdict yet. ${FORMER}` : "Provisional values while you move the slider; no verdict.";
   const settling = `Running the full analysis. ${isFormer ? FORMER : "The values below are provisional."}`;
-  const told = [tag({ look: "provisional", text: "Provisional" }), " ", phase === "moving" ? moving : settling];
+  const told = [html("strong", { class: "tag is-provisional" }, "Provisional"), " ", phase === "moving" ? moving : settling];
   return { told, causes: note(isFormer ? FORMER : answer.model_text), count: "Details" };
 }
 
-// The check that governs, with a bar of its D/C and what it was for the workbook.
-function ratioOf({ text, ratio, ratio_text: told }, before) {
-  const bar = html("span", { class: `dc-bar${(ratio ?? FULL_BAR) > 1 ? " is-over" : ""}`, "aria-hidden": "true" }, html("span", {}), html("i", {}));
-  bar.style.setProperty("--share", share(ratio ?? FULL_BAR)); // of no capacity it is infinite
-  bar.style.setProperty("--one", share(1));
-  const was = before && before.ratio_text !== told && before.text === text ? html("span", { class: "before" }, `${before.ratio_text} → `) : null;
-  if (!told) return null;
-  return [bar, html("span", { class: "worst-ratio numbers" }, html("small", {}, term("D/C")), " ", was, html("strong", {}, told))];
-}
-
-function share(ratio) {
-  return Math.min(ratio / FULL_BAR, 1);
+function nodes(text) {
+  return [...parsed("div", text).childNodes];
 }
 
 // Where the verdict changes, of each slider that was searched: `OK from μ 0.46`.
@@ -83,15 +68,4 @@ function turnedWords({ turned, project, values }) {
   if (found.length === 0) return null;
   const [verdict] = found[0][0].verdict.split(" ");
   return words(`${verdict} from ${found.map(([{ value }, item]) => said(item, value, values)).join(", or ")}.`);
-}
-
-function list(reasons) {
-  return reasons.length > 0 ? html("ul", { "aria-label": "Reasons" }, reasons.map(reasonItem)) : null;
-}
-
-function reasonItem({ level, text, parts: joined }) {
-  const named = level ? [html("strong", { class: `level is-${level.toLowerCase()}` }, level), " "] : null;
-  const told = [named, words(text)];
-  if (!joined?.length) return html("li", {}, told);
-  return html("li", {}, html("details", {}, html("summary", {}, told), html("ul", {}, joined.map((one) => html("li", {}, words(one))))));
 }

@@ -27,23 +27,25 @@ export function headings(texts, attributes = {}) {
   return html("thead", attributes, html("tr", {}, texts.map((text) => (text ? html("th", { scope: "col" }, text) : html("td")))));
 }
 
+/** Return an element with HTML of the server in it, whose templates escape what they print. */
+export function parsed(name, text) {
+  return new DOMParser().parseFromString(`<${name}>${text}</${name}>`, "text/html").body.firstElementChild;
+}
+
 /** Replace all that is in an element. */
 export function replace(element, ...children) {
   element.replaceChildren(...nodes(children));
 }
 
-/**
- * Replace what differs from new elements; what is the same stays, with its listeners, and is not laid
- * out again.
- */
-export function update(element, ...children) {
+/** Replace what differs in an element from another one; what is the same stays, and is not laid out again. */
+export function update(element, other) {
   const former = [...element.childNodes];
-  const next = nodes(children);
+  const next = [...other.childNodes];
   next.forEach((node, k) => {
     const old = former[k];
     if (!old) element.append(node);
     else if (old.isEqualNode(node)) return;
-    else if (node.firstElementChild && old.cloneNode().isEqualNode(node.cloneNode())) update(old, [...node.childNodes]);
+    else if (node.firstElementChild && old.cloneNode().isEqualNode(node.cloneNode())) update(old, node);
     else old.replaceWith(node);
   });
   for (const old of former.slice(next.length)) old.remove();

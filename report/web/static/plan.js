@@ -3,7 +3,7 @@
 
 import { within } from "./view-parts.js";
 import { onChange, WHOLE } from "./session.js";
-import { svg, update } from "./make.js";
+import { parsed, update } from "./make.js";
 
 const MOST = 8;
 const STEP = 1.5;
@@ -55,13 +55,18 @@ export function mountPlan(element, session, { said, zooms }) {
     KEYS[event.key]();
   });
 
-  let drawn = null;
-  session.draws(onChange(["answer", "view", "picked"], ({ answer, view, picked }) => {
+  let [drawn, described] = ["", ""];
+  session.draws(onChange(["answer", "view", "picked"], ({ answer, shows, view, picked }) => {
     if (!answer) return;
-    if (answer.plan === drawn) element.querySelector("svg").setAttribute("viewBox", boxOf(drawn, view));
-    else update(element, drawing(answer.plan, view));
-    drawn = answer.plan;
-    element.querySelector("desc").textContent = answer.plan.described.map((one) => sentence(one, Boolean(answer.verdict))).join(" ");
+    if (answer.html.plan !== drawn) {
+      const next = parsed("div", answer.html.plan);
+      described = next.querySelector("desc").textContent;
+      update(element, next);
+    }
+    drawn = answer.html.plan;
+    element.querySelector("svg").setAttribute("viewBox", boxOf(answer.plan, view));
+    // Values that stay while others are computed have no verdict any more.
+    element.querySelector("desc").textContent = shows === "former" ? "" : described;
     element.classList.toggle("is-zoomed", view.scale > 1);
     element.style.setProperty("--zoom", view.scale);
     for (const one of element.querySelectorAll("[data-key]")) one.classList.toggle("is-picked", one.dataset.key === picked);
@@ -120,44 +125,4 @@ function isFor({ rooms_px: [least, most] }, room) {
 
 function boxOf({ size_px: [wide, tall] }, { scale, x, y }) {
   return [x * wide, y * tall, wide / scale, tall / scale].join(" ");
-}
-
-function drawing(plan, view) {
-  const { title, items } = plan;
-  const written = new Set(items.map(({ text }) => text));
-  const unnamed = items.filter((item) => item["data-key"] && item.d && !written.has(item["data-key"]));
-  return svg(
-    "svg",
-    { viewBox: boxOf(plan, view), role: "img", "aria-labelledby": "plan-title plan-description" },
-    svg("title", { id: "plan-title" }, title),
-    svg("desc", { id: "plan-description" }),
-    svg("defs", {}, hatch("hatch", "M0 0V6"), hatch("cross", "M0 0V6M0 0H6"), tip()),
-    items.map(({ kind, text, ...attributes }) => svg(kind, attributes, text)),
-    unnamed.map((item) => svg("text", { class: "small-name", ...middle(item.d) }, item["data-key"])),
-  );
-}
-
-// Where the name of a shape goes that has no room for it until the plan is zoomed.
-function middle(d) {
-  const all = d.match(/[\d.]+/g).map(Number);
-  const mean = (axis) => {
-    const values = all.filter((_, k) => k % 2 === axis);
-    return (Math.min(...values) + Math.max(...values)) / 2;
-  };
-  return { x: mean(0), y: mean(1) };
-}
-
-// Values that stay while others are computed have no verdict any more.
-function sentence({ text, verdict }, hasVerdict) {
-  return `${text}${verdict && hasVerdict ? `, ${verdict.text}` : ""}.`;
-}
-
-function hatch(id, d) {
-  const look = { id, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" };
-  return svg("pattern", look, svg("path", { d, class: "hatch-line" }));
-}
-
-function tip() {
-  const place = { id: "tip", orient: "auto", refX: 8, refY: 3.5, markerWidth: 8, markerHeight: 7, viewBox: "0 0 8 7", markerUnits: "userSpaceOnUse" };
-  return svg("marker", place, svg("path", { d: "M0 0L8 3.5L0 7Z", class: "dark" }));
 }

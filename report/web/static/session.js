@@ -4,8 +4,9 @@
 
 import { isSame, typedOf } from "./changes.js";
 
-const REST_MS = 80; // without a move, after which a slider rests
-const GAP_MS = 150; // at least, from one provisional answer that is asked to the next: half the work
+const REST_MS = 80; // without a step of a key, after which a slider rests
+const HOLD_MS = 400; // without a move of the pointer that holds it, likewise: a pause in a drag asks nothing
+const GAP_MS = 300; // at least, from one provisional answer that is asked to the next: each costs 0.1 s of a processor
 const STEP_MS = 400; // after which a step is answered provisionally, if the full answer is not there
 
 /** The whole sheet of the plan. */
@@ -42,7 +43,7 @@ export function createSession(assess, fail) {
     /** A slider moves: answer provisionally, and in full once it rests; a step, at first, in full at once. */
     move: (values, isStep = false) => run.through({ ...state.values, ...values }, isStep),
     /** The pointer let the slider go. */
-    release: () => run.isMoving() && run.rest(),
+    release: () => run.release(),
     /** Values were typed or chosen: answer in full at once. */
     enter: (values) => run.at({ ...state.values, ...values }),
     /** Return to values upon those of the workbook. */
@@ -58,7 +59,8 @@ export function createSession(assess, fail) {
 function createRuns(state, set, assess, fail) {
   let [version, timer] = [0, 0]; // of the values; until the slider rests
   let isMoving = false; // a slider moved since the full model was last asked
-  let isFull = true; // nothing is to be computed
+  let isFull = true; // nothing is to be computed but what an answer lacks
+  let isHeld = false; // by the pointer: what an answer lacks is asked once it lets go
 
   async function ask(moving, whole = false) {
     const asked = version;
@@ -70,7 +72,7 @@ function createRuns(state, set, assess, fail) {
       isFull = !moving;
       const phase = moving ? provisional(isMoving) : "rest";
       set({ phase, answer: { ...answer, values }, shows: moving ? "provisional" : "final", failure: null });
-      if (answer.pending) await ask(false, true);
+      if (answer.pending && !isHeld) await ask(false, true);
     } catch (error) {
       // The values are refused with their problems, or the server did not answer; of provisional ones the
       // full answer tells, which is asked next.
@@ -82,7 +84,7 @@ function createRuns(state, set, assess, fail) {
   }
 
   const askMoving = createLane(async () => isFull || ask(true), GAP_MS);
-  const askFull = createLane(async () => isMoving || ask(false));
+  const askFull = createLane(async () => isMoving || ask(false, isFull));
 
   // The answer stays beside other values, without its verdict.
   function change(values, moves) {
@@ -102,18 +104,24 @@ function createRuns(state, set, assess, fail) {
   }
 
   return {
-    isMoving: () => isMoving,
     rest,
     again: () => isMoving || askFull(),
+    release() {
+      isHeld = false;
+      if (isMoving) rest();
+      else if (state.answer?.pending) askFull();
+    },
     through(values, isStep) {
       const rests = isStep && isFull;
+      isHeld = !isStep;
       change(values, !rests);
       if (rests) askFull();
       else askMoving();
-      timer = rests ? setTimeout(askMoving, STEP_MS) : setTimeout(rest, REST_MS);
+      timer = rests ? setTimeout(askMoving, STEP_MS) : setTimeout(rest, isHeld ? HOLD_MS : REST_MS);
     },
     // The values of the workbook have their answer; others are asked in full.
     at(all) {
+      isHeld = false;
       change(all, false);
       const { project, values } = state;
       if (!project?.answer || !isSame(values, typedOf(project))) {

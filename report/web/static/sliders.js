@@ -32,6 +32,7 @@ function slider(item, session) {
     on: {
       input: () => session.move(entered(item, aimed(), input.valueAsNumber), !input.matches(":active")),
       pointerup: session.release,
+      pointercancel: session.release,
     },
   });
   const set = (value) => {

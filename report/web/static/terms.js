@@ -1,22 +1,6 @@
 // What a symbol or a word means: told on hover and on focus, beside it.
 
-import { button, html, words } from "./make.js";
-
-const TERMS = {
-  "Mean PRD": "Mean of the peak relative displacement (PRD) of the array under the motions. The PRD is the largest distance of the array from its start during one motion.",
-  "Design Δ": "Design displacement: what the separations are computed from. It is that of the analysis with its factor and its floor, or the prescriptive displacement.",
-  Prescriptive: "Displacement of the prescriptive procedure, which needs no motions.",
-  "D/C": "Demand / capacity: required / provided clearance. More than 1.00 is NG.",
-  Verdict: "OK; NG: not satisfied; Condition: satisfied once the condition is closed.",
-  Provided: "Clearance that is there, from the workbook.",
-  Required: "Separation that the design displacements require.",
-  Provisional: "Computed from part of the runs while you move a slider. A displacement may be too small, and there is no verdict.",
-};
-
-/** Return a word with what it means, where that is known; else with its subscripts. */
-export function term(text) {
-  return text in TERMS ? html("span", { class: "term", tabindex: 0, "data-term": TERMS[text] }, text) : words(text);
-}
+import { button } from "./make.js";
 
 /** Return a button that tells what a control does. */
 export function helpButton(text, label) {

@@ -3,7 +3,7 @@
 
 import { acts } from "./changes.js";
 
-const REST_MS = 1000;
+const REST_MS = 2000; // a search takes some seconds of a processor
 const EASES = { friction: 1, clearance: 1 }; // with more of it there is less NG; of the others, with less
 
 /**
@@ -48,14 +48,15 @@ export async function turnOf({ id, least, greatest, step }, values, isNg, ask, i
     if (!known.has(steps)) known.set(steps, await ask({ ...values, [id]: at(steps) }, false));
     return known.get(steps);
   };
-  const end = Math.floor(((way > 0 ? greatest : least) - values[id]) / (way * step) + 1e-6);
-  const last = end > 0 && (await verdictAt(end));
-  if (!last || isOf(last, isNg)) return null;
   const isTurned = async (steps, isQuick) => !isOf(await verdictAt(steps, isQuick), isNg);
+  const end = Math.floor(((way > 0 ? greatest : least) - values[id]) / (way * step) + 1e-6);
+  // A provisional NG is one in full, too; any other verdict may become one.
+  if (end < 1 || (!(await isTurned(end, true)) && (isNg || !(await isTurned(end))))) return null;
   let [before, after] = await between([0, end], (steps) => isTurned(steps, true), isWanted);
   if (before > 0 && (await isTurned(before))) [before, after] = await between([0, before], isTurned, isWanted);
   else if (!(await isTurned(after))) [before, after] = await between([after, end], isTurned, isWanted);
-  return { value: at(after), verdict: (await verdictAt(after)).text, before: at(before) };
+  const turned = await verdictAt(after);
+  return isOf(turned, isNg) ? null : { value: at(after), verdict: turned.text, before: at(before) };
 }
 
 // The steps beside each other between which the verdict turns.

@@ -3,6 +3,7 @@
 import pytest
 
 from fixtures.marks import by_day
+from fixtures.page_parts import elements
 from fixtures.paths import ROOT
 from report.assessment.assess import Extent, assess, reassess
 from report.assessment.assessment import Assessment
@@ -10,6 +11,7 @@ from report.assessment.design.friction import with_friction
 from report.assessment.design.verdict import Verdict
 from report.web.answers import answer
 from report.web.open_project import open_project
+from report.web.parts import parts
 from report.web.plan import stamp
 
 
@@ -88,8 +90,8 @@ def test_the_plan_tells_of_arrays_objects_and_clearances(assessed):
     found = answer(assessed, is_provisional=False)
     assert found["tips"].keys() >= {"A1", "A2", "A3", "RTU-1", "NORTH", "#1", "#2"}
     assert "D/C" in found["tips"]["A1"]
-    keys = {item.get("data-key") for item in found["plan"]["items"]} - {None}
-    assert keys <= found["tips"].keys()
+    keys = {one.get("data-key") for one in elements(found["plan"]["drawn"], "*[@data-key]")}
+    assert {"A1", "#1"} <= keys <= found["tips"].keys()
 
 
 def test_alike_arrays_are_one_row_and_what_is_joined_in_a_cause_is_listed():
@@ -129,9 +131,9 @@ def test_the_headline_is_the_check_that_governs_with_its_ratio_and_what_to_do_ne
 def test_an_array_is_shaded_by_its_largest_ratio(assessed):
     found = answer(assessed, is_provisional=False)
     shades = {
-        item["data-key"]: int(item["class"].rpartition("-")[2])
-        for item in found["plan"]["items"]
-        if item["class"].startswith("array is-shade-")
+        one.get("data-key"): int(one.get("class").rpartition("-")[2])
+        for one in elements(found["plan"]["drawn"], "path[@data-key]")
+        if one.get("class").startswith("array is-shade-")
     }
     ratios = {row[0]["ids"][0]: row[4]["text"] for row in found["arrays"]["rows"]}
     limits = (0.5, 0.75, 0.9, 1.0)
@@ -141,33 +143,35 @@ def test_an_array_is_shaded_by_its_largest_ratio(assessed):
         assert shades[name] == sum(ratio > limit for limit in limits), name
 
 
-CLEARANCES = """async (cells) => {
+CLEARANCES = """async ([clearances, former]) => {
   document.body.innerHTML = '<link rel="stylesheet" href="/static/style.css"><table></table>' +
     '<table></table><div class="results"><table class="numbers" id="clearances"></table></div>';
   await new Promise((done) => (document.querySelector('link').onload = done));
-  const [arrays, bars, clearances] = document.querySelectorAll('table');
-  clearances.parentElement.style.width = '430px'; // beside the plan, on a screen of 1280 pixels
+  const [arrays, bars, table] = document.querySelectorAll('table');
+  table.parentElement.style.width = '430px'; // beside the plan, on a screen of 1280 pixels
   const { mountResults } = await import('/static/results.js');
-  const heads = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"];
-  const empty = { caption: "Arrays", heads: [], rows: [] };
-  const table = { caption: "Clearances", heads, rows: [cells] };
-  const answer = { arrays: empty, clearances: table, bars: { heads: [], arrays: {} } };
-  const before = structuredClone(answer);
-  before.clearances.rows[0][3].text = "81.6 in";
-  before.clearances.rows[0][4].text = "0.85";
+  const answer = { html: { arrays: "<tbody></tbody>", bars: {}, clearances } };
+  const before = { html: { ...answer.html, clearances: former } };
   const state = { answer, project: { answer: before }, picked: null, array: null };
-  mountResults({ arrays, bars, clearances }, { draws: (draw) => draw(state) }, () => {});
+  mountResults({ arrays, bars, clearances: table }, { draws: (draw) => draw(state) }, () => {});
   await document.fonts.ready;
-  const changed = [...clearances.querySelectorAll("td")].map((cell) => cell.textContent);
-  return [clearances.parentElement.scrollWidth, changed];
+  const changed = [...table.querySelectorAll("td")].map((cell) => cell.textContent);
+  return [table.parentElement.scrollWidth, changed];
 }"""
 
 
 @pytest.mark.parametrize("verdict", by_day([Verdict.NG, Verdict.CONDITION], 1))
 def test_names_of_a_dozen_letters_leave_the_verdict_of_a_clearance_in_view(scripts, verdict):
-    cells = [{"text": text} for text in ("1", "ARRAY-NW-01 to PV existing 2014", "96.0 in")]
-    cells += [{"text": "107.5 in"}, {"text": "0.83"}, stamp(verdict)]
-    cells[1] |= {"from": "ARRAY-NW-01", "to": "PV existing 2014", "note": "across"}
-    wide, texts = scripts.evaluate(CLEARANCES, cells)
+    ends = {"from": "ARRAY-NW-01", "to": "PV existing 2014", "note": "across"}
+    between = {"text": "ARRAY-NW-01 to PV existing 2014"} | ends
+    heads = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"]
+    tables = [
+        parts().clearances({"caption": "Clearances", "heads": heads, "rows": [
+            [{"text": "1"}, between, {"text": "96.0 in"}, *numbers, stamp(verdict)]]})
+        for numbers in (
+            [{"text": "107.5 in"}, {"text": "0.83"}], [{"text": "81.6 in"}, {"text": "0.85"}]
+        )
+    ]  # fmt: skip
+    wide, texts = scripts.evaluate(CLEARANCES, tables)
     assert wide <= 430
     assert texts == ["1", "96.0 in", "81.6 → 107.5 in", "0.85 → 0.83", verdict.value]

@@ -96,19 +96,19 @@ STEPS = {
         [True, False]),
     "a slow provisional answer is shown until the full one is there": ("""
         session.move({ x: 1 });
-        await pause(400);
+        await pause(500);
         for (const k of [0, 1]) { asked[k].done(); await tick(); }
         return [asked.map(({ moving }) => moving), answers()];""",
         [[True, False], [["settling", 1], ["rest", 1]]]),
     "after the full answer a slow provisional one is dropped": ("""
         session.move({ x: 1 });
-        await pause(400);
+        await pause(500);
         for (const k of [1, 0]) { asked[k].done(); await tick(); }
         return [asked.map(({ moving }) => moving), answers()];""",
         [[True, False], [["rest", 1]]]),
     "a full answer is asked again where the slider went on": ("""
         session.move({ x: 1 });
-        await pause(100);
+        await pause(500);
         session.move({ x: 2 });
         session.release();
         asked[1].done(); await tick();
@@ -122,6 +122,15 @@ STEPS = {
         asked[1].done(); await tick();
         return [asked.map(({ whole }) => whole), answers()];""",
         [[False, True], [["rest", 1], ["rest", 1]]]),
+    "what an answer lacks is asked once the pointer lets the slider go": ("""
+        session.move({ x: 1 });
+        await pause(500);
+        asked[1].done({ pending: "less" }); await tick();
+        const held = asked.length;
+        session.release();
+        asked[2].done(); await tick();
+        return [held, asked.map(({ moving, whole }) => [moving, whole]), answers()];""",
+        [2, [[True, False], [False, False], [False, True]], [["rest", 1], ["rest", 1]]]),
     "a step that is no drag is answered in full at once": ("""
         session.move({ x: 1 }, true);
         asked[0].done(); await tick();

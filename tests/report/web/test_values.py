@@ -11,6 +11,7 @@ import pytest
 
 from fixtures import project_parts, projects
 from fixtures.marks import by_day, nightly
+from fixtures.page_parts import elements, table_rows, words
 from fixtures.paths import ROOT
 from fixtures.workbooks import make
 from report.assessment.assess import Extent, assess
@@ -26,6 +27,7 @@ from report.web import jobs
 from report.web.answers import answer
 from report.web.controls import shown
 from report.web.open_project import PASSING, open_project, reference_of
+from report.web.parts import drawn
 from report.web.values import typed
 from solver.errors import InputError
 from solver.sliding import model_selection
@@ -61,10 +63,11 @@ def at_rest(project, *, is_whole=True, **values):
 def test_other_friction_than_was_reviewed_has_the_floor_at_rest_and_while_it_moves(moving):
     workbook = str(PROJECTS / "school" / "input.xlsx")
     job = {"do": "assess", "workbook": workbook, "moving": moving, "room": 780}
-    designs = [
-        rows(jobs.perform(job | {"values": values})["answer"]["arrays"])[0]["Design Δ"]["title"]
+    tables = [
+        jobs.perform(job | {"values": values})["answer"]["html"]["arrays"]
         for values in ({}, {"friction": 0.97})
     ]
+    designs = [table_rows(table)[0]["Design Δ"].get("title") for table in tables]
     assert ["floor" in title for title in designs] == [False, True]
 
 
@@ -125,9 +128,9 @@ def test_at_rest_every_number_and_verdict_is_that_of_the_written_workbook(
     again = written(project, values, tmp_path)
     whole = answer(assess(again.sheet, again.shaking), is_provisional=False, room_px=780)
     found = at_rest(project, **values)
-    assert json.dumps(found) == json.dumps({**whole, "shown": shown(again)})
+    assert json.dumps(found) == json.dumps({**drawn(whole), "shown": shown(again)})
     # The values do change what is shown.
-    assert found["arrays"] != at_rest(project)["arrays"]
+    assert found["html"]["arrays"] != at_rest(project)["html"]["arrays"]
 
 
 OTHERWISE = {
@@ -271,9 +274,12 @@ def test_an_answer_without_less_friction_has_the_values_and_no_ok(project, frict
         at_rest(project, friction=friction, is_whole=is_whole) for is_whole in (False, True)
     )
     # The last column has verdicts, which may become those with conditions.
-    numbers, known = ([row[:-1] for row in one["arrays"]["rows"]] for one in (first, whole))
-    assert numbers == known
-    assert first["bars"] == whole["bars"]
+    numbers, known = (
+        [[words(cell) for cell in row.values()][:-1] for row in table_rows(one["html"]["arrays"])]
+        for one in (first, whole)
+    )
+    assert numbers == known != []
+    assert first["html"]["bars"] == whole["html"]["bars"]
     assert (first["verdict"]["text"], whole["verdict"]["text"]) == (before, after)
     assert (first["verdict"] == whole["verdict"]) == (before == after)
     assert (bool(first["pending"]), whole["pending"]) == (True, "")
@@ -391,12 +397,25 @@ def test_a_clearance_that_moves_runs_nothing_again(monkeypatch):
     before = at_rest("example", friction=0.91)
     monkeypatch.setattr(model_selection, "solve", lambda *_: pytest.fail("a run"))
     narrower = at_rest("example", friction=0.91, clearance=-5.0)
-    gaps = zip(*(rows(one["clearances"]) for one in (before, narrower)), strict=True)
-    provided = [[float(gap["Provided"]["text"].split()[0]) for gap in pair] for pair in gaps]
+    tables = (table_rows(one["html"]["clearances"]) for one in (before, narrower))
+    pairs = zip(*tables, strict=True)
+    provided = [[float(words(gap["Provided"]).split()[0]) for gap in pair] for pair in pairs]
     assert all(after < given for given, after in provided)
-    assert narrower["bars"] == before["bars"]
+    assert narrower["html"]["bars"] == before["html"]["bars"]
     with pytest.raises(pytest.fail.Exception):
         at_rest("example", friction=0.92, clearance=-5.0)
+
+
+def test_a_clearance_that_moves_runs_nothing_again_while_it_moves(monkeypatch):
+    known = typed_reference("school")
+    before = start("school").at({"friction": 0.93}).moving(known)
+    monkeypatch.setattr(model_selection, "solve", lambda *_: pytest.fail("a run"))
+    for value in (-20.0, 25.0):
+        after = start("school").at({"friction": 0.93, "clearance": value}).moving(known)
+        assert [item.design_m for item in after.arrays] == [item.design_m for item in before.arrays]
+        assert after.clearances[0].provided_m != before.clearances[0].provided_m
+    with pytest.raises(pytest.fail.Exception):
+        start("school").at({"friction": 0.94}).moving(known)
 
 
 def test_a_project_is_named_by_its_workbook_and_records_wherever_they_are(tmp_path):
@@ -419,9 +438,8 @@ def test_values_as_typed_change_no_cell():
 
 
 def test_at_the_values_of_rest_provisional_values_are_those_of_rest():
-    full, job = at_rest("school"), {"do": "assess", "room": 780, "values": {}, "moving": True}
-    job |= {"workbook": str(PROJECTS / "school" / "input.xlsx")}
-    moving = jobs.perform(job | {"reference": typed_reference("school")})["answer"]
+    full = answer(typed_assessment("school"), is_provisional=False)
+    moving = answer(start("school").moving(typed_reference("school")), is_provisional=True)
     for table in ("arrays", "clearances"):
         known = [row | {"Verdict": None} for row in rows(full[table])]
         assert sorted(known, key=str) == sorted(rows(moving[table]), key=str)
@@ -499,7 +517,7 @@ def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_
     for array in rows(found["arrays"]):
         assert array["Design Δ"] == {"text": "not permitted", "title": title}
         assert array["Verdict"] == {"text": "NG", "look": "ng"}
-        line, _ = found["bars"]["arrays"][array["Array"]["ids"][0]]["lines"]
+        line, _ = found["bars"][array["Array"]["ids"][0]]["lines"]
         assert (line["length_m"], line["text"]) == (None, "design not permitted")
     for gap in rows(found["clearances"]):
         assert gap["Required"] == gap["D/C"] == {"text": "no value"}
@@ -507,8 +525,9 @@ def test_where_no_route_is_permitted_the_page_has_no_required_separation_and_no_
     said = [gap["text"] for gap in found["plan"]["described"]]
     assert len(said) == 7
     assert all(text.endswith("required no value") for text in said)
-    drawn = {item["class"] for item in found["plan"]["items"]}
-    assert not {"envelope", "ng-area", "ng-box"} & drawn
+    looks = {one.get("class") for one in elements(found["plan"]["drawn"], "*")}
+    assert "roof" in looks
+    assert not {"envelope", "ng-area", "ng-box"} & looks
     assert found["verdict"]["text"] == "NG"
     design = rows(answer(done, is_provisional=True)["arrays"])[0]["Design Δ"]
     assert design == {"text": "488 mm", "title": "488 mm (19.2 in), floor"}

@@ -1,0 +1,59 @@
+"""An answer as the page draws it: each element that follows it as HTML.
+
+Computes nothing and words nothing: `parts.html` has a macro for each element. Read `drawn`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, FileSystemLoader
+from markupsafe import Markup, escape
+
+_SUBSCRIPT = re.compile(r"\b([A-Z])_(\w{1,3})\b")
+_SENT = ("verdict", "line", "verdict_text", "model_text", "next", "pending", "tips")
+
+
+def drawn(found: Mapping[str, Any]) -> dict[str, Any]:
+    """Return an answer with its elements as HTML, by their ids; bars by array."""
+    make = parts()
+    bars, plan = found["bars"], found["plan"]
+    lengths = [line["length_m"] for one in bars.values() for line in one["lines"]]
+    lengths += [row["prd_m"] for one in bars.values() for row in one["rows"]]
+    scale_m = max(filter(None, lengths), default=1.0)
+    return {name: found[name] for name in _SENT} | {
+        "count": sum(reason["level"] != "remedy" for reason in found["reasons"]),
+        "plan": {name: plan[name] for name in ("size_px", "rooms_px")},
+        "html": {
+            "headline": make.headline(found) if found["verdict"] else "",
+            "worst": make.worst(found["worst"]),
+            "reasons": make.reasons(found),
+            "warnings": make.warnings(found),
+            "arrays": make.arrays(found["arrays"]),
+            "clearances": make.clearances(found["clearances"]),
+            "bars": {id: make.bars(one, scale_m) for id, one in bars.items() if one["rows"]},
+            "plan": make.plan(plan),
+        },
+    }
+
+
+@cache
+def parts() -> Any:
+    """Return the macros as functions, compiled once in a process."""
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["subscripted"] = subscripted
+    return environment.get_template("parts.html").module
+
+
+def subscripted(text: str) -> Markup:
+    """Return words with their subscripts: S_DS is an S with a small DS."""
+    return Markup(_SUBSCRIPT.sub(r"\1<sub>\2</sub>", escape(text)))
