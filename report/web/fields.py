@@ -124,6 +124,7 @@ def _table(book: OpenBook, section: SheetSection) -> Mapping[str, Any]:
     after = max([found.heading.row, *filled]) + 1
     return {
         "sheet": title,
+        "is_open": section.key == "arrays" and not filled,
         "heads": [
             {
                 "text": _text(book, title, found.heading.row, number),

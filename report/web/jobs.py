@@ -30,13 +30,14 @@ from report.project.read.what_if import cells
 from report.project.write.filled import WorkbookChange, withdrawn
 from report.project.write.template import template
 from report.provenance.release import version
+from report.text.grouping import grouped_by
 from report.text.units import LENGTHS
 from report.web import views
 from report.web.answers import answer
 from report.web.controls import shown
 from report.web.fields import problems, tables, typed_cells
 from report.web.open_project import OpenProject, open_project, reference_of
-from report.web.parts import drawn
+from report.web.parts import drawn, parts
 from report.web.plan import USUAL_PX, stamp
 from report.web.worker import INTERNAL, is_full
 from solver.errors import InputError
@@ -76,9 +77,19 @@ def state(workbook: Path, job: Json) -> Json:
     try:
         opened = _open(workbook)
     except InputError as error:
-        found = {"problems": problems(workbook, error), "tables": tables(workbook)}
-        lacks = {"lacks": _lacks(workbook), "drawing": _drawing(workbook)}
-        return {"project": None, "answer": None, **found, **lacks}
+        found = problems(workbook, error)
+        by_remedy = grouped_by(found, lambda one: (one["sheet"], one["remedy"] or one["text"]))
+        return {
+            "project": None,
+            "answer": None,
+            "problems": found,
+            "html": {
+                "problems": parts().problems(list(by_remedy.values())),
+                "fields": parts().fields(tables(workbook)),
+            },
+            "lacks": _lacks(workbook),
+            "drawing": _drawing(workbook),
+        }
     near = [pair for pair in opened.assessed().pairs if pair.kind is not NearbyKind.BARE_EDGE]
     return {
         "project": {
@@ -139,24 +150,23 @@ def _drawing(workbook: Path) -> Json | None:
         return None
     from report.drawing_read.read_dxf import read_dxf  # with ezdxf, half a second
 
-    found = {"name": path.name, "kinds": list(LayerKind), "units": list(LENGTHS)}
+    found: dict[str, Any] = {"name": path.name, "kinds": list(LayerKind), "units": list(LENGTHS)}
     try:
-        drawn, known = read_dxf(path), known_layers(layers_of(read(workbook).inputs))
+        drawn_file, known = read_dxf(path), known_layers(layers_of(read(workbook).inputs))
     except InputError as error:
-        return {**found, "refused": error.problems[0]}
-    layers = sorted({line.layer for line in drawn.lines})
-    return {
-        **found,
-        "unit": drawn.unit,
-        "layers": [
+        found["refused"] = error.problems[0]
+    else:
+        layers = sorted({line.layer for line in drawn_file.lines})
+        found["unit"] = drawn_file.unit
+        found["layers"] = [
             {
                 "layer": layer,
-                "drawn": drawn_on(drawn, layer),
+                "drawn": drawn_on(drawn_file, layer),
                 "kind": known.get(layer.casefold()) or proposed(layer) or LayerKind.NOT_READ,
             }
             for layer in layers
-        ],
-    }
+        ]
+    return {"name": path.name, "html": parts().drawing(found)}
 
 
 def _drawings(workbook: Path) -> Iterator[Path]:
@@ -254,7 +264,7 @@ _JOBS: Mapping[str, Callable[[Path, Json], Json]] = {
     "add_clearances": add_clearances,
     "read_plan": read_plan,
     "fill_in": fill_in,
-    "tables": lambda workbook, _: {"tables": tables(workbook)},
+    "tables": lambda workbook, _: {"html": {"fields": parts().fields(tables(workbook))}},
     "blank": blank,
     "verdict": verdict,
     "slide": _view(lambda a, job: views.slide(a, job["array"], job["motion"], job["run"])),

@@ -1,7 +1,7 @@
 // Values of the package at another friction, intensity or clearance. No verdict, and no rule: factors, floors,
 // statistics and roundings are those that the results state.
 
-import { headings, html, note, replace, update } from "./make.js";
+import { html, note, replace, update } from "./make.js";
 import { measured, number } from "./reading.js";
 
 const MU_DIGITS = 4; // of a coefficient, as in the workbook
@@ -87,8 +87,8 @@ export function mountValues(element, api, results, moved) {
   const show = ({ arrays, gaps }) => {
     const ofArrays = arrays.map(({ array, ...now }) => rowOf(array.id, cells(["mean_prd_m", "design_m"], array, now)));
     const ofGaps = gaps.map(({ gap, ...now }) => rowOf(`${gap.number}: ${gap.array} to ${gap.object}`, cells(["provided_m", "required_m", "demand_capacity"], gap, now)));
-    update(tables[0], headings(["Array", "Mean PRD", "Design displacement"]), html("tbody", {}, ofArrays));
-    update(tables[1], headings(["Clearance", "Provided", "Required", "D/C"]), html("tbody", {}, ofGaps));
+    update(tables[0], table(["Array", "Mean PRD", "Design displacement"], ofArrays));
+    update(tables[1], table(["Clearance", "Provided", "Required", "D/C"], ofGaps));
   };
 
   async function compute() {
@@ -140,4 +140,9 @@ function rowOf(name, cells) {
 // A round length near a step: whole inches, or 25 mm.
 function lengthOf(step, { si }) {
   return Math.round(step / si) * si;
+}
+
+function table(heads, rows) {
+  const head = html("tr", {}, heads.map((text) => html("th", { scope: "col" }, text)));
+  return html("table", {}, html("thead", {}, head), html("tbody", {}, rows));
 }

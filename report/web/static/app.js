@@ -149,8 +149,7 @@ async function startNew() {
 
 // Show the tables of the project that is open, and what is typed into them then.
 async function editTables() {
-  const { tables } = await api.tables();
-  typed = showTables(tables);
+  typed = showTables((await api.tables()).html);
   part("save-filled").hidden = true;
   isEdited = true;
 }

@@ -1,7 +1,6 @@
 // What stands above the tables: the name of the project, its next step, its errors, its warnings.
 
-import { html, replace } from "./make.js";
-import { showProblems } from "./problems.js";
+import { html, parsed, replace } from "./make.js";
 
 const ALONE =
   "Only the workbook was uploaded. Drop its records on this page, or its folder. Cells below that name a record are not wrong in themselves.";
@@ -26,11 +25,11 @@ export function showSteps({ lacks }) {
 }
 
 // A workbook with errors is not opened: what was open stays so. Returns what is typed into its fields.
-export function showErrors({ problems, tables, is_alone: isAlone, lacks }, { project }) {
+export function showErrors({ problems, html: drawn, is_alone: isAlone, lacks }, { project }) {
   const isLost = isAlone && problems.some(({ sheet }) => sheet === "Motions"); // a workbook, but no records
   const isNew = lacks.includes("arrays");
   const title = isLost ? "The records were not uploaded" : isNew ? "What the workbook needs first" : "Errors in the workbook";
-  const typed = showProblems(part("problems"), { problems, tables }, title, isLost ? ALONE : CORRECT);
+  const typed = showFields(drawn, title, isLost ? ALONE : CORRECT);
   part("back").hidden = !project;
   part("back").textContent = `Back to ${project?.name}`;
   for (const id of ["workspace", "outline", "welcome"]) part(id).hidden = true;
@@ -39,11 +38,27 @@ export function showErrors({ problems, tables, is_alone: isAlone, lacks }, { pro
 }
 
 /** Show the tables of the project that is open, to be changed; returns what is typed. */
-export function showTables(tables) {
+export function showTables(drawn) {
   part("workspace").hidden = true;
   part("back").hidden = false;
   part("back").textContent = "Back";
-  return showProblems(part("problems"), { problems: [], tables }, "Edit the workbook", EDIT);
+  return showFields(drawn, "Edit the workbook", EDIT);
+}
+
+// Errors and tables with their fields; returns what is typed into these, by cell.
+function showFields({ problems = "", fields }, title, advice) {
+  const [element, typed] = [part("problems"), {}];
+  const [heading, paragraph] = ["h2", "p"].map((name) => element.querySelector(name));
+  heading.textContent = title;
+  paragraph.textContent = advice;
+  replace(element.querySelector(".problems"), ...parsed("table", problems).childNodes);
+  replace(element.querySelector(".fields"), ...parsed("div", fields).childNodes);
+  element.onchange = ({ target }) => {
+    typed[target.dataset.at] = target.value;
+  };
+  element.hidden = false;
+  heading.focus();
+  return typed;
 }
 
 /** Show the project that is open in place of errors. */

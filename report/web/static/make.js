@@ -22,11 +22,6 @@ export function note(text) {
   return html("p", { class: "note" }, text);
 }
 
-/** Make the head of a table. */
-export function headings(texts, attributes = {}) {
-  return html("thead", attributes, html("tr", {}, texts.map((text) => (text ? html("th", { scope: "col" }, text) : html("td")))));
-}
-
 /** Return an element with HTML of the server in it, whose templates escape what they print. */
 export function parsed(name, text) {
   return new DOMParser().parseFromString(`<${name}>${text}</${name}>`, "text/html").body.firstElementChild;

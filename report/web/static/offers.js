@@ -1,6 +1,6 @@
 // Offers what a workbook lacks: to read its plan from a DXF beside it, and to make motions for its site.
 
-import { button, headings, html, note, replace, words } from "./make.js";
+import { button, html, note, parsed, replace, words } from "./make.js";
 import { follow, saveFile, say, showProgress } from "./package.js";
 import { save } from "./saving.js";
 
@@ -31,29 +31,11 @@ export function mountDrawing(element, api, { open, filled, fail }) {
   return (files, drawing) => {
     element.hidden = !drawing;
     if (!drawing) return;
-    const { name, refused, layers, kinds, units, unit } = drawing;
-    if (refused) {
-      replace(element, html("p", {}, `${name}: ${refused}`));
-      return;
-    }
-    const chosen = layers.map(({ layer, kind }) => select(kinds, kind, layer));
-    const unitOf = select(["", ...units], "", "Unit of the drawing", unit ? `${unit}, as the drawing states` : "choose");
-    const fields = () => ({ unit: unitOf.value, layers: JSON.stringify(Object.fromEntries(layers.map(({ layer }, k) => [layer, chosen[k].value]))) });
-    const rows = layers.map(({ layer, drawn }, k) => html("tr", {}, html("th", { scope: "row" }, layer), html("td", {}, drawn), html("td", {}, chosen[k])));
-    replace(
-      element,
-      html("p", {}, `The plan can be read from ${name}: say what is drawn on each layer.`),
-      html("table", { class: "layers" }, headings(["Layer", "Drawn", "Is"]), html("tbody", {}, rows)),
-      html("label", { class: "field" }, "Unit ", unitOf, " "),
-      button("Fill in the plan", () => read(files, name, fields()).catch(fail)),
-      note("Places that are filled in the workbook are replaced in the copy that is open here."),
-    );
+    replace(element, ...parsed("div", drawing.html).childNodes);
+    const layers = () => [...element.querySelectorAll("[data-layer]")].map(({ dataset, value }) => [dataset.layer, value]);
+    const fields = () => ({ unit: element.querySelector("[data-unit]").value, layers: JSON.stringify(Object.fromEntries(layers())) });
+    element.querySelector("button")?.addEventListener("click", () => read(files, drawing.name, fields()).catch(fail));
   };
-}
-
-// `none` is what to show for no value.
-function select(options, chosen, label, none = "") {
-  return html("select", { "aria-label": label }, options.map((value) => html("option", { value, selected: value === chosen }, value || none)));
 }
 
 /** Offer motions in an element; `open` opens what a promise gives, `fail` gets an error. */

@@ -10,7 +10,7 @@ from fixtures.workbooks import blank
 from report.project.model.choices import UnitsFirst
 from report.project.read.read import read
 from report.web import jobs
-from report.web.fields import typed_cells
+from report.web.fields import tables, typed_cells
 
 EXAMPLE = ROOT / "projects" / "example"
 TYPED = {
@@ -63,7 +63,7 @@ def test_a_blank_workbook_is_filled_in_until_it_opens(tmp_path, units):
     assert (first["project"], first["lacks"]) == (None, ["arrays"])
     missing = {f"{problem['sheet']}!{problem['cells']}" for problem in first["problems"]}
     assert missing - {"Arrays!B7"} <= TYPED.keys()
-    arrays, objects, _ = first["tables"]
+    arrays, objects, _ = tables(path)
     heads = [head["text"] for head in arrays["heads"]]
     assert len(heads) == len(ARRAY)
     assert next(head["choices"] for head in arrays["heads"] if head["text"] == "Slope unit")
