@@ -12,6 +12,7 @@ from typing import Any
 
 from report.assessment.assessment import Assessment
 from report.assessment.causes import failed, governing_words, largest
+from report.assessment.checks.alike import size
 from report.assessment.checks.check import Check, by_ratio
 from report.assessment.checks.sentence import sentence, words
 from report.assessment.design.arrays import ArrayAssessment
@@ -168,14 +169,15 @@ def _reasons(assessment: Assessment) -> Iterator[Mapping[str, Any]]:
 
 
 def _joined_by(assessment: Assessment, joined: Check) -> Sequence[Check]:
-    """Return the checks that are listed as one, the largest ratio first; none of a single one."""
+    """Return the checks that are listed as one, the worst first; none of a single one."""
     found = [
         check
         for check in assessment.checks
         if (check.id, check.verdict) == (joined.id, joined.verdict)
         and set(check.places) <= set(joined.places)
     ]
-    return by_ratio(found) if len(found) > 1 else []
+    # Of two without any capacity, that which lacks more.
+    return sorted(found, key=size, reverse=True) if len(found) > 1 else []
 
 
 def _design(marks: Marks, item: ArrayAssessment, is_provisional: bool) -> Cell:
