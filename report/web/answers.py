@@ -12,9 +12,8 @@ from typing import Any
 
 from report.assessment.assessment import Assessment
 from report.assessment.causes import failed, governing_words, largest
-from report.assessment.checks.alike import size
 from report.assessment.checks.check import Check, by_ratio
-from report.assessment.checks.sentence import sentence, words
+from report.assessment.checks.sentence import sentence, size, words
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.routes import NOT_PERMITTED
 from report.assessment.design.rule_set import MEANING
