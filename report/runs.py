@@ -218,10 +218,7 @@ def motion_run(motion: Motion, runs: Sequence[OrientedRun]) -> MotionRun:
 
 
 def run_oriented(
-    array: Array,
-    motion: Motion,
-    orientation: Orientation,
-    tolerance: float = DEFAULT.tolerance,
+    array: Array, motion: Motion, orientation: Orientation, tolerance: float = DEFAULT.tolerance
 ) -> OrientedRun:
     """Run one array under one motion at one orientation, to a tolerance relative to the PRD."""
     scene = motion.scene(orientation, slope_rad=array.slope_rad, friction=array.friction)

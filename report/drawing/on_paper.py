@@ -148,11 +148,7 @@ def plan_on_paper(
     extent = _extent(assessment)
     paper, key = _empty(extent, size, _scale(assessment, extent, size))
     plan = PlanSheet(
-        assessment=assessment,
-        size=size,
-        paper=paper,
-        designs=designs,
-        has_verdicts=has_verdicts,
+        assessment=assessment, size=size, paper=paper, designs=designs, has_verdicts=has_verdicts
     )
     if not size.is_full:
         paper.placer.take(key)

@@ -78,11 +78,7 @@ def beside(assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize
     if has_arrays:
         room -= arrays_tall
     tall = [
-        ROW_IN
-        * max(
-            _lines(gap.clearance.array, _FROM_IN),
-            _lines(gap.clearance.object, _TO_IN),
-        )
+        ROW_IN * max(_lines(gap.clearance.array, _FROM_IN), _lines(gap.clearance.object, _TO_IN))
         for gap in assessment.clearances
     ]
     rows: list[int] = []

@@ -300,12 +300,7 @@ class PlanSheet:
             self.unnamed.append(" ".join(lines))
 
     def beside(
-        self,
-        frame: Frame,
-        lines: Sequence[str],
-        radius: float = 0.0,
-        *,
-        is_last: bool = False,
+        self, frame: Frame, lines: Sequence[str], radius: float = 0.0, *, is_last: bool = False
     ) -> bool:
         """Write outside of something with a leader if it has room; `is_last`, across others too."""
         maximum = math.inf if is_last else self.leader_in

@@ -42,10 +42,7 @@ _OTHER_FILES = (
     (rb"AutoCAD Binary DXF", "a binary DXF; save it as DXF in text"),
     (rb"%PDF", "a PDF; give the DXF that it was plotted from"),
     (rb"PK\x03\x04", "a zip; unpack it and give the DXF in it"),
-    (
-        rb"\x89PNG|\xff\xd8\xff|II\*\x00|MM\x00\*|GIF8|BM",
-        "a picture; give the drawing as DXF",
-    ),
+    (rb"\x89PNG|\xff\xd8\xff|II\*\x00|MM\x00\*|GIF8|BM", "a picture; give the drawing as DXF"),
     (rb"ISO-10303-21", "an IFC or STEP model; export its roof plan as DXF"),
     (rb"\xd0\xcf\x11\xe0", "a model of Revit, or an old Office file; export its roof plan as DXF"),
     (rb"(?:<[?!][^>]*>\s*){0,9}<svg", "an SVG; save it as DXF"),

@@ -31,9 +31,7 @@ from solver.friction_tests import FittedLaw, FrictionRun, Surface
 
 
 def comparison(
-    groups: Sequence[Sequence[ArrayAssessment]],
-    us_first: bool,
-    others_m: Mapping[str, float] = {},
+    groups: Sequence[Sequence[ArrayAssessment]], us_first: bool, others_m: Mapping[str, float] = {}
 ) -> str:
     """Return prescriptive value, floor, PRDs, mean and design value by group of like arrays.
 

@@ -225,9 +225,7 @@ STEP_IN = 0.008
 
 
 def hodographs(
-    motions: Sequence[MotionRun],
-    followed: Sequence[SlideHistory],
-    us_first: bool,
+    motions: Sequence[MotionRun], followed: Sequence[SlideHistory], us_first: bool
 ) -> str:
     """Return the path in plan of the governing run of each motion, PRD marked, with a scale bar.
 

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from report.document.columns import centered, text, words
 from report.document.sections import Section, section
 from report.document.tables import grouped
-from report.manual import precision
+from report.manual import paper_sections
 from report.manual.precision import floor
 from report.pages.parts import verdict
 from report.text.error_text import scientific, ten_digits
@@ -45,10 +45,10 @@ def summary(verification: Verification) -> Section:
         failed_cells=sum(int(sweep.failed.sum()) for sweep in maps),
         cells=sum(sweep.failed.size for sweep in maps),
         worst=worst,
-        worst_mm=precision.worst_mm(worst) if worst else math.nan,
+        worst_mm=paper_sections.worst_mm(worst) if worst else math.nan,
         links_percent=float(np.mean([link.mean_percent for link in links] or [math.nan])),
-        PAPER_WORST_PERCENT=precision.PAPER_WORST_PERCENT,
-        PAPER_MEAN_PERCENT=precision.PAPER_MEAN_PERCENT,
+        PAPER_WORST_PERCENT=paper_sections.PAPER_WORST_PERCENT,
+        PAPER_MEAN_PERCENT=paper_sections.PAPER_MEAN_PERCENT,
         BY_HEIGHT=BY_HEIGHT,
         by_section=grouped_by(verification.checks, lambda row: row.section),
         used=_used,

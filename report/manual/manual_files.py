@@ -14,10 +14,11 @@ from markupsafe import Markup
 import solver.building.roof
 from report.document.sections import Section, filled, section
 from report.document.templates import rendered
-from report.manual import precision
 from report.manual.check_sections import checks, judged, summary
 from report.manual.measured_buildings import building, models
-from report.manual.precision import conditioning, convergence, curves, links, stability, work
+from report.manual.paper_sections import convergence, curves, links
+from report.manual.precision import methods, work
+from report.manual.stability_sections import conditioning, stability
 from report.pages.symbols import with_symbols
 from report.provenance.known_errors import known_errors
 from report.provenance.package_sources import installed, processor
@@ -113,7 +114,7 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         summary(verification),
         section("manual/scope", "Scope and terms"),
         checks(verification),
-        precision.methods(verification),
+        methods(verification),
         work(verification),
         stability(verification),
         convergence(verification),

@@ -176,10 +176,7 @@ def _histories(axes: Axes, roof: RoofComparison) -> None:
     t = np.arange(roof.roof_mps2.size)[part] * roof.dt_s
     # More points a second than print can show make the file larger and no line clearer.
     every = max(1, round(0.02 / roof.dt_s))
-    for a_mps2, color, line in (
-        (roof.roof_mps2, INK, "-"),
-        (first.a_mps2, ACCENT, _DASHES[0]),
-    ):
+    for a_mps2, color, line in ((roof.roof_mps2, INK, "-"), (first.a_mps2, ACCENT, _DASHES[0])):
         shown_g = a_mps2[part][::every] / G_MPS2
         axes.plot(t[::every], shown_g, color=color, linewidth=1.1, linestyle=line)
     axes.set_xlim(t[0], t[-1])

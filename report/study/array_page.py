@@ -16,20 +16,19 @@ from report.document.tables import Column, listed
 from report.project.read.study_years import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import study_charts
 from report.study import years as rates
-from report.study.page_parts import axis, design_length
-from report.study.study_plan import SLOPE
-from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
-from report.study.study_tables import Row, length_unit, who
-from report.study.wording import (
-    MASS,
+from report.study.dispersions import (
     NAMES,
     Dispersion,
     dispersions,
     exported,
     is_exportable,
     is_refused,
-    on_building,
 )
+from report.study.page_parts import axis, design_length
+from report.study.study_plan import SLOPE
+from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
+from report.study.study_tables import Row, length_unit, who
+from report.study.wording import MASS, on_building
 from report.study.years import ArrayYears
 from report.text.names import slug
 from report.text.units import number, round_up

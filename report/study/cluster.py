@@ -12,7 +12,8 @@ from report.study.manifest import program, version_differences
 from report.study.optional_packages import DASK, optional_package
 from report.study.parquet_parts import OnDone, keep, made_part, mixed
 from solver.errors import InputError
-from solver.studies.runs import Campaign, Runner
+from solver.studies.campaign import Campaign
+from solver.studies.runs import Runner
 
 TIMEOUT_S = 10.0
 RETRIES = 2

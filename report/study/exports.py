@@ -11,10 +11,11 @@ from functools import partial
 
 from report.document.templates import said
 from report.project.model.choices import RecordedAt
+from report.study.dispersions import dispersions, exported, is_exportable, is_refused
 from report.study.study_input import Intensity
 from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
 from report.study.study_tables import Row
-from report.study.wording import MASS, context, dispersions, exported, is_exportable, is_refused
+from report.study.wording import MASS, context
 from report.text.csv_text import csv_text
 from report.text.letter_case import capitalized
 from report.text.units import digits_down, digits_up

@@ -22,7 +22,8 @@ from report.provenance.release import version
 from report.text.units import G_MPS2
 from solver.errors import InputError
 from solver.model import Motion
-from solver.studies.runs import SETTINGS, Campaign
+from solver.studies.campaign import Campaign
+from solver.studies.runs import SETTINGS
 
 # Raised where a key of the manifest or a column of the parts changes its name or meaning.
 SCHEMA_VERSION = 1

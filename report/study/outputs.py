@@ -13,10 +13,12 @@ from report.document.sections import Section, filled, section
 from report.document.templates import rendered
 from report.project.read.study_years import YEARS
 from report.results.publish import publish
+from report.study.allowed_answers import allowed
 from report.study.array_page import fragility, sheets, years, years_json
-from report.study.design_curves import allowed, compare, curves, prescribed
+from report.study.design_curves import curves
 from report.study.exports import LIBRARY, export_files
 from report.study.page_parts import basis, formula, limits
+from report.study.prescribed import compare, prescribed
 from report.study.run_study import RUNS, run_study
 from report.study.study_plan import StudyPlan
 from report.study.study_results import StudyResults
@@ -30,10 +32,7 @@ TABLE = "study.xlsx"
 
 
 def make_study(
-    plan: StudyPlan,
-    folder: Path,
-    progress: Callable[[str], None],
-    **options: Any,
+    plan: StudyPlan, folder: Path, progress: Callable[[str], None], **options: Any
 ) -> tuple[StudyResults, Mapping[str, bytes]]:
     """Run a study and publish its files; another run to the same folder waits until it ends.
 

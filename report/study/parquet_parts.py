@@ -31,7 +31,8 @@ from solver.file_writing import write_all
 from solver.kernels.compiler import THREADS
 from solver.model import Floats
 from solver.sliding.model_selection import Model
-from solver.studies.runs import LENGTHS, STATUSES, Campaign, Rows, Runner, run_part
+from solver.studies.campaign import Campaign
+from solver.studies.runs import LENGTHS, STATUSES, Rows, Runner, run_part
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 

@@ -1,8 +1,6 @@
 """From the sheet to the runs: which cases belong to curves, fragilities and exceedances.
 
 Runs nothing. Read `plan_study`.
-
-The design displacement of the rule set for the cases of the curves, from their statistics.
 """
 
 from __future__ import annotations
@@ -14,11 +12,10 @@ from functools import cached_property
 from itertools import chain, product
 from typing import Any
 
-import numpy as np
-
 from report.project.model.finding import Finding
 from report.project.model.input_rows import Place
 from report.project.read.unseen import warnings
+from report.study.design_rule import DesignRule, design_rule
 from report.study.hazard_curve import hazard_curves
 from report.study.read_study import StudySheet
 from report.study.study_input import (
@@ -32,92 +29,10 @@ from report.study.study_input import (
 )
 from report.study.study_motions import StudyMotions
 from solver.errors import InputError
-from solver.model import Floats
-from solver.rules.provisions import (
-    Basis,
-    analysis_floor_m,
-    basis_for,
-    factored,
-    prescriptive_displacement,
-)
-from solver.rules.rulesets import RULE_SETS, RuleSet
-from solver.studies.curves import Statistics
+from solver.studies.campaign import Campaign, Cases, cases_of, grid, joined
 from solver.studies.predictive import Predictive, predictive
 from solver.studies.rates import HazardCurve
-from solver.studies.runs import Campaign, Cases, cases_of, grid, joined
 from solver.studies.uncertainty import Spread, latin_hypercube, one_at_a_time
-
-# Category and importance factor of the prescriptive displacement, which a study does not know.
-SDC, I_E = "D", 1.0
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DesignRule:
-    """How the design displacement follows from the PRDs of the motions.
-
-    Its arrays have the shape (intensities,); empty unless the intensity is S_DS.
-    """
-
-    rules: RuleSet
-    n_motions: int
-    basis: Basis
-    prescriptive_m: Floats
-    floor_m: Floats  # minimum of the value from analysis without peer review
-
-    @property
-    def has_value(self) -> bool:
-        """Whether there are enough motions."""
-        return self.basis is not Basis.TOO_FEW
-
-    @property
-    def has_floor(self) -> bool:
-        """Whether the floor is known."""
-        return bool(self.floor_m.size)
-
-    @property
-    def name(self) -> str:
-        """What `design_m` is."""
-        return "design displacement" + ("" if self.has_floor else " before the floor")
-
-    def analysis_m(self, curves: Statistics) -> Floats:
-        """Return the value from analysis, of the shape of the curves [m]; NaN for none."""
-        return factored(self.rules, self.basis, curves.mean_m, curves.largest_m)
-
-    def design_m(self, curves: Statistics) -> Floats:
-        """Return the same, not less than the floor where that is known."""
-        value = self.analysis_m(curves)
-        return np.maximum(value, self.floor_m) if self.has_floor else value
-
-    @property
-    def about(self) -> dict[str, Any]:
-        """The same for the manifest."""
-        return {
-            "name": self.name,
-            "rule_set": self.rules.name,
-            "statistic": self.basis.value,
-            "factor": self.rules["analysis_factor"],
-            "floor_share_of_prescriptive": self.rules["analysis_floor"],
-            "sdc": SDC,
-            "importance_factor": I_E,
-            "floor_m": self.floor_m.tolist() if self.has_floor else None,
-        }
-
-
-def design_rule(study_input: StudyInput, n_motions: int) -> DesignRule:
-    """Return the rule for a study of a number of motions."""
-    rules = RULE_SETS[study_input.study.rule_set.value]
-    levels = study_input.intensities if study_input.study.intensity is Intensity.S_DS else ()
-    requirements = [
-        prescriptive_displacement(rules, s_ds_g=level, sdc=SDC, importance=I_E) for level in levels
-    ]
-    return DesignRule(
-        rules=rules,
-        n_motions=n_motions,
-        basis=basis_for(rules, n_motions),
-        prescriptive_m=np.array([requirement.value_m for requirement in requirements]),
-        floor_m=np.array([analysis_floor_m(rules, requirement) for requirement in requirements]),
-    )
-
 
 FRICTION, SLOPE, INTENSITY = "friction coefficient", "slope", "intensity"
 Shift = tuple[float, float]

@@ -16,17 +16,10 @@ import numpy as np
 from report.pages.marks import UNVERIFIED
 from report.project.read.study_years import SUPPORTING
 from report.results.sheet_columns import text_workbook
+from report.study.dispersions import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.study_plan import ArrayPlan
 from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
-from report.study.wording import (
-    NAMES,
-    dispersions,
-    exported,
-    is_exportable,
-    is_refused,
-    sentence,
-    taken_over,
-)
+from report.study.wording import sentence, taken_over
 from report.text.csv_text import csv_text
 from report.text.letter_case import capitalized
 from report.text.unit_format import UnitFormat

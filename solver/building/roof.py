@@ -129,9 +129,7 @@ def shaking_to_roof(
         a = lengthened(motion.a_mps2, count)
         horizontal.append(replace(motion, a_mps2=a, pad_s=pad_s))
     return RoofShaking(
-        dt_s=dt_s / steps,
-        horizontal=tuple(horizontal),
-        vertical_mps2=read_only(vertical),
+        dt_s=dt_s / steps, horizontal=tuple(horizontal), vertical_mps2=read_only(vertical)
     )
 
 

@@ -79,11 +79,7 @@ def read_motion_file(
     (Record('RM1-x.csv', 6001 samples at 0.005 s),)
     """
     source = open_source(
-        Path(path),
-        units=units,
-        dt_s=dt_s,
-        values_per_line=values_per_line,
-        response=str(response),
+        Path(path), units=units, dt_s=dt_s, values_per_line=values_per_line, response=str(response)
     )
     reader = next(form for form in FORMATS if form.recognizes(source))
     return replace(reader.read(source), content=source.content)

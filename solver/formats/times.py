@@ -40,11 +40,7 @@ Even = tuple[float, Floats, tuple[str, ...]]
 
 
 def sampled(
-    source: Source,
-    t_s: Floats,
-    columns: Floats,
-    line_of: Callable[[int], int],
-    unit_s: float = 1.0,
+    source: Source, t_s: Floats, columns: Floats, line_of: Callable[[int], int], unit_s: float = 1.0
 ) -> Even:
     """Columns at an even step: unchanged if the times are even, otherwise resampled.
 

@@ -289,11 +289,7 @@ def _log_spectrum(record: Record, periods_s: Floats) -> Floats:
 def _check_design(s_ds_g: float, s_d1_g: float, t_l_s: float) -> None:
     problems = [
         f"{name} is {value:g} {unit}; give a number above 0"
-        for name, value, unit in (
-            ("S_DS", s_ds_g, "g"),
-            ("S_D1", s_d1_g, "g"),
-            ("T_L", t_l_s, "s"),
-        )
+        for name, value, unit in (("S_DS", s_ds_g, "g"), ("S_D1", s_d1_g, "g"), ("T_L", t_l_s, "s"))
         if not 0.0 < value < math.inf
     ]
     if not problems and t_l_s <= s_d1_g / s_ds_g:

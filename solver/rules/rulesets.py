@@ -97,9 +97,7 @@ ALLOWED: Mapping[str, Allowed] = {
     "analysis_floor": Allowed(0, 1, "floor without peer review / prescriptive displacement"),
     "separation_like": Allowed(0, 10, "separation factor, array of similar construction"),
     "separation_fixed": Allowed(
-        0.1,
-        10,
-        "separation factor, fixed object or array of different construction",
+        0.1, 10, "separation factor, fixed object or array of different construction"
     ),
     "separation_parapet": Allowed(0, 10, "separation factor, edge with qualifying parapet"),
     "separation_edge": Allowed(0.1, 10, "separation factor, edge without qualifying parapet"),
@@ -266,7 +264,7 @@ _IBC = {
 
 _PV1_NOTES = {
     "analysis_max_slope_deg": "quoted for attached arrays (Sec. 4); an unattached array on a slope"
-    " over 3 deg may be outside PV1-2012",
+    " over 3 deg may be outside PV1-2012"
 }
 
 _ASCE_NOTES = {"analysis_max_slope_deg": "in SDC A, B, C it may be exceeded with peer review"}

@@ -1,5 +1,8 @@
 """Selects the simplest adequate model of a scene: one array under one motion.
 
+A motion of three components on 2 degrees at mu = 0.4 is run in one axis if neither the vertical
+nor the cross-slope component changes a displacement by more than 1 mm, or 0.5 % of the PRD.
+
 Integrates nothing itself (`solver.sliding.one_axis` and `solver.sliding.two_axes` do) and knows no
 code rules. Read `Model`, then `solve`.
 """
@@ -73,6 +76,9 @@ class Settings:
 
 DEFAULT = Settings()
 
+# Why a model was used, and the effect of more complete ones [m].
+_Explanation = tuple[str, float]
+
 _LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_across_m")
 
 
@@ -96,12 +102,12 @@ class Solution:
     next_model: Model
     scene: Scene = field(repr=False, compare=False)
     # The reason and the effect, or what returns them.
-    told: tuple[str, float] | Callable[[], tuple[str, float]] = field(repr=False, compare=False)
+    explanation: _Explanation | Callable[[], _Explanation] = field(repr=False, compare=False)
 
     @property
     def reason(self) -> str:
         """Why this model was used, as a clause."""
-        return self._told[0]
+        return self._explained[0]
 
     @property
     def next_effect_m(self) -> float:
@@ -110,7 +116,7 @@ class Solution:
         From runs of them, and including their errors; inf if such a run gives no displacement, NaN
         if the input has no data for a more complete model.
         """
-        return self._told[1]
+        return self._explained[1]
 
     @cached_property
     def friction_demand(self) -> float:
@@ -122,8 +128,8 @@ class Solution:
         return friction_demand(self.scene)
 
     @cached_property
-    def _told(self) -> tuple[str, float]:
-        return self.told if isinstance(self.told, tuple) else self.told()
+    def _explained(self) -> _Explanation:
+        return self.explanation if isinstance(self.explanation, tuple) else self.explanation()
 
     def __repr__(self) -> str:
         return f"Solution: {self.model.title}; {self.reason}\n{self.result}\n{self._beyond}"
@@ -171,6 +177,8 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
 
 def _climbed(scene: Scene, settings: Settings, bounds: RecordBounds | None) -> Solution:
     slope, samples = (math.sin(scene.slope_rad), math.cos(scene.slope_rad)), components(scene)
+    # A block rests while |G| <= mu N (Eqs. 8-9 of the paper). Both are linear between samples, so
+    # the samples alone tell whether it ever slips.
     hold = scene.friction.mu_static
     first = kernel.first_slip(*samples, *slope, hold, scene.g_mps2, scene.scale)
     if first == scene.ax_mps2.size:
@@ -180,8 +188,8 @@ def _climbed(scene: Scene, settings: Settings, bounds: RecordBounds | None) -> S
         solution = _in_plane(scene, settings, Model.SPEED_FRICTION, why)
     else:
         model, result, both = _chosen(scene, settings, bounds, first)
-        tell = partial(_told, scene, settings, model, both)
-        solution = _solution(scene, model, result, tell)
+        explain = partial(_explain, scene, settings, model, both)
+        solution = _solution(scene, model, result, explain)
     return _lifted(scene) if solution.result.status is Status.UPLIFT else solution
 
 
@@ -198,10 +206,14 @@ def _chosen(
             both = two_axes.run_bounded(scene, settings.tolerance, bounds)
             if _is_far_across(both, settings):
                 return Model.TWO_AXES, both, both
+    # Runs in one axis cost about one pass over the record each: both are always made.
     vertical = _run_along(scene, bounds)
     level = _run_along(_level(scene), bounds) if scene.az_mps2.size else vertical
     bound, lesser = settings.bound_m(vertical.prd_m), _left_out(level, vertical)
+    # The bound is one of exact motions: a run may differ from its own by its error.
     at_most += vertical.error_m if at_most else 0.0
+    # Neglecting both components changes no more than the sum of both effects. Only between those
+    # two, where the sum decides and the single effects do not, is the run in two axes needed.
     if not at_most <= bound or lesser <= bound < lesser + at_most:
         both = both or two_axes.run_bounded(scene, settings.tolerance, bounds or bounds_of(scene))
         at_most = _left_out(vertical, both)
@@ -241,9 +253,9 @@ def _run_along(scene: Scene, bounds: RecordBounds | None) -> SlideResult:
     return one_axis.run_bounded(scene, bounds) if bounds else one_axis.run(scene)
 
 
-def _told(
+def _explain(
     scene: Scene, settings: Settings, model: Model, both: SlideResult | None
-) -> tuple[str, float]:
+) -> _Explanation:
     """Return why a model is used and what it neglects [m], from runs of all of them."""
     if not (scene.ay_mps2.size or scene.az_mps2.size):
         return "the motion has no other component", math.nan
@@ -289,14 +301,14 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
     if model >= Model.TWO_AXES:
         return _in_plane(scene, settings, model, why)
     result = one_axis.run(as_run(scene, model))
-    tell = partial(_told_requested, scene, settings, model, result, why)
-    return _solution(scene, model, result, tell)
+    explain = partial(_explain_request, scene, settings, model, result, why)
+    return _solution(scene, model, result, explain)
 
 
-def _told_requested(
+def _explain_request(
     scene: Scene, settings: Settings, model: Model, result: SlideResult, why: str
-) -> tuple[str, float]:
-    """Return what `_told` returns, for a model in one axis that was requested."""
+) -> _Explanation:
+    """Return what `_explain` returns, for a model in one axis that was requested."""
     fuller = []
     if scene.ay_mps2.any():
         fuller.append(two_axes.run(as_run(scene, Model.TWO_AXES), settings.tolerance))
@@ -306,7 +318,7 @@ def _told_requested(
 
 
 def _solution(
-    scene: Scene, model: Model, result: SlideResult, tell: Callable[[], tuple[str, float]]
+    scene: Scene, model: Model, result: SlideResult, explain: Callable[[], _Explanation]
 ) -> Solution:
     """Return a solution with the next model that the records of the scene are enough for."""
     following = model
@@ -314,14 +326,19 @@ def _solution(
         following = Model.ONE_AXIS_VERTICAL
     elif model < Model.TWO_AXES and scene.ay_mps2.size:
         following = Model.TWO_AXES
-    return Solution(model=model, result=result, next_model=following, scene=scene, told=tell)
+    return Solution(
+        model=model, result=result, next_model=following, scene=scene, explanation=explain
+    )
 
 
 def _without_next(
     scene: Scene, model: Model, result: SlideResult, why: str, effect_m: float = math.nan
 ) -> Solution:
     """Return a solution by the most complete model that applies."""
-    return Solution(model=model, result=result, next_model=model, scene=scene, told=(why, effect_m))
+    explained = why, effect_m
+    return Solution(
+        model=model, result=result, next_model=model, scene=scene, explanation=explained
+    )
 
 
 def _lifted(scene: Scene) -> Solution:
@@ -344,7 +361,7 @@ def _in_plane(scene: Scene, settings: Settings, model: Model, why: str) -> Solut
         return solution
     # Constant friction was asked for where the scene has a law: what that changes is told.
     effect = _left_out(result, two_axes.run(scene, settings.tolerance))
-    return replace(solution, next_model=Model.SPEED_FRICTION, told=(why, effect))
+    return replace(solution, next_model=Model.SPEED_FRICTION, explanation=(why, effect))
 
 
 def as_run(scene: Scene, model: Model) -> Scene:

@@ -116,9 +116,7 @@ def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
         return ()
     return tuple(
         Event(
-            t_s=t,
-            kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP,
-            u_m=scene.cs * s,
+            t_s=t, kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP, u_m=scene.cs * s
         )
         # Another run, for which the number of stops says how much room the events need.
         for t, kind, s in exact_events(scene, result.n_stops).tolist()

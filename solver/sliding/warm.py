@@ -24,12 +24,7 @@ _VARYING = Friction(mu_slow=0.3, mu_fast=0.4, mu_static=0.35, rate_s_per_m=20.0)
 def _shaken(friction: Friction) -> Scene:
     """Return a block under a motion of three components."""
     return scene(
-        _SHAKING,
-        _DT_S,
-        slope_rad=0.03,
-        mu=friction,
-        ay_mps2=_SHAKING[::-1],
-        az_mps2=0.1 * _SHAKING,
+        _SHAKING, _DT_S, slope_rad=0.03, mu=friction, ay_mps2=_SHAKING[::-1], az_mps2=0.1 * _SHAKING
     )
 
 
@@ -48,10 +43,7 @@ def friction_law() -> None:
 
 
 # About equal in time, so that two processes finish together.
-PARTS: Mapping[str, Callable[[], None]] = {
-    "constant": constant_friction,
-    "law": friction_law,
-}
+PARTS: Mapping[str, Callable[[], None]] = {"constant": constant_friction, "law": friction_law}
 
 if __name__ == "__main__":
     for part in sys.argv[1:]:

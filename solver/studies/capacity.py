@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from solver.kernels.compiler import THREADS
 from solver.model import Floats, Status
-from solver.studies.runs import STATUSES, Track, demand_at, empty_rows, grid
+from solver.studies.campaign import grid
+from solver.studies.runs import STATUSES, Track, demand_at, empty_rows
 
 Flags = NDArray[np.bool_]
 

@@ -22,9 +22,10 @@ from solver.model import Floats, Motion, Status
 from solver.records.record import Record
 from solver.sliding.checked import motion
 from solver.sliding.model_selection import Model
+from solver.studies.campaign import Campaign, grid
 from solver.studies.capacity import Curve, capacities
 from solver.studies.curves import Statistics, first_allowed, statistics
-from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, grid, run_part
+from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 from solver.studies.sweep import axis
 
 if TYPE_CHECKING:

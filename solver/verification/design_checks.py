@@ -124,10 +124,7 @@ def _uplift() -> Verified:
 
 def _tipping() -> Iterator[Verified]:
     row = partial(
-        Verified,
-        "DV-5",
-        "min(a_h / g, mu) / (b / (2 h))",
-        "Ratio of shear to tipping shear",
+        Verified, "DV-5", "min(a_h / g, mu) / (b / (2 h))", "Ratio of shear to tipping shear"
     )
     # Tall and rough enough to tip before it slides; then the same with less friction.
     supports = Supports(height_m=1.0, spacing_m=1.5)

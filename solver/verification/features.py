@@ -39,9 +39,7 @@ FEATURES = (
         only="Small dependence, random pairs; no closed form",
     ),
     Feature(
-        "Static friction above kinetic",
-        ("TA-7", "TA-8"),
-        only="Small difference; no closed form",
+        "Static friction above kinetic", ("TA-7", "TA-8"), only="Small difference; no closed form"
     ),
     Feature(
         "Row of linked blocks",

@@ -23,7 +23,8 @@ from report.study.manifest import manifest_of
 from report.study.parquet_parts import begin, done_parts, peaks, read_part, run_missing
 from solver import read_record, sweep
 from solver.model import Motion
-from solver.studies.runs import Campaign, Runner, grid, run_part
+from solver.studies.campaign import Campaign, grid
+from solver.studies.runs import Runner, run_part
 
 SLOPES = np.radians(np.linspace(-7.0, 7.0, 29))
 LEVELS = np.linspace(0.05, 1.5, 16)

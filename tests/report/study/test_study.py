@@ -29,9 +29,9 @@ from fixtures.study_workbooks import (
 )
 from report.cli.main import main
 from report.study import study_charts
-from report.study.design_curves import compare
 from report.study.exports import export_files
 from report.study.outputs import study_html
+from report.study.prescribed import compare
 from report.study.run_study import planned, run_study
 from report.study.study_input import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.study_tables import curves_csv, study_xlsx

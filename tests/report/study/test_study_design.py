@@ -15,8 +15,9 @@ from fixtures import pages, projects
 from fixtures.marks import by_day
 from fixtures.study_workbooks import sheet_rows, study_input, with_study, write
 from report.assessment.design.routes import Route
-from report.study.design_curves import allowed, compare
+from report.study.allowed_answers import allowed
 from report.study.page_parts import design_length
+from report.study.prescribed import compare
 from report.study.run_study import planned, run_study
 from report.study.study_input import Intensity, Mat, RuleSetName, StudyArray
 from report.study.study_results import STATISTICS

@@ -136,7 +136,7 @@ def test_runs_that_are_not_needed_are_made_once_and_only_to_be_told(monkeypatch,
     }
     told, again = (pickle.loads(pickle.dumps(solution)) for _ in range(2))
     for copy in (told, again):
-        for component in copy.told.args[0].components.values():
+        for component in copy.explanation.args[0].components.values():
             component.setflags(write=False)  # for others the kernels are compiled once more
     assert f"more than {1e3 * Settings().bound_m(one_axis.run(needed).prd_m):.2g} mm" in told.reason
     made = len(runs)

@@ -12,6 +12,7 @@ from fixtures.campaigns import frozen, motion
 from fixtures.marks import by_day
 from solver import solve
 from solver.model import coulomb
+from solver.studies.campaign import Campaign, grid
 from solver.studies.capacity import ACCURACY, Capacities, Curve, capacities
 from solver.studies.fragility import (
     deviance,
@@ -24,7 +25,7 @@ from solver.studies.fragility import (
     lilliefors_p,
     log_likelihood,
 )
-from solver.studies.runs import Campaign, Runner, grid
+from solver.studies.runs import Runner
 
 G = 9.80665
 LEVELS = np.linspace(0.2, 2.4, 12)

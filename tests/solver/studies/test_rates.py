@@ -12,6 +12,7 @@ from fixtures.marks import by_day
 from solver import solve
 from solver.kernels import lives as kernel
 from solver.model import coulomb
+from solver.studies.campaign import Campaign, grid
 from solver.studies.lives import (
     BELOW_UPLIFT,
     RESPONSES,
@@ -35,7 +36,7 @@ from solver.studies.rates import (
     probability,
     realizations,
 )
-from solver.studies.runs import SETTINGS, Campaign, Runner, grid
+from solver.studies.runs import SETTINGS, Runner
 
 K0, K = 0.002, 2.5
 

@@ -11,8 +11,9 @@ import solver
 from fixtures.campaigns import campaign, motion
 from solver import InputError, Model, Status, coulomb, solve
 from solver.studies import runs as made
+from solver.studies.campaign import LEAST_PARTS, Campaign, cases_of, grid
 from solver.studies.curves import first_allowed, statistics
-from solver.studies.runs import LENGTHS, STATUSES, Campaign, Runner, cases_of, grid, run_part
+from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 from solver.verification.paper_studies import MUS as PAPER_MUS
 from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
 from solver.verification.study_motions import own_records, scale_to
@@ -220,13 +221,13 @@ def test_parts_cover_every_case_once_and_in_order(letters):
 def test_parts_have_about_as_many_cases():
     c = campaign("x", mus=np.linspace(0.1, 0.8, 40), intensities=np.linspace(0.05, 2.0, 40))
     sizes = [part.stop - part.start for part in c.parts]
-    assert len(sizes) == made.LEAST_PARTS
+    assert len(sizes) == LEAST_PARTS
     assert max(sizes) - min(sizes) <= 1
 
 
 @pytest.mark.parametrize(("letters", "limit"), [("x", "PART_ROWS"), ("xyz", "PLANE_PART_ROWS")])
 def test_no_part_has_more_rows_than_the_limit(letters, limit, monkeypatch):
-    monkeypatch.setattr(made, limit, 16)
+    monkeypatch.setattr(f"solver.studies.campaign.{limit}", 16)
     c = campaign(letters)
     assert max(part.stop - part.start for part in c.parts) * len(c.columns) <= 16
     assert c.parts[-1].stop == len(c.cases)
