@@ -43,7 +43,7 @@ def add_motions(
             folder, name_of_all = Path(temporary), source.stem
             unpack(source, folder)
         sets, refused = sets_of(
-            folder, units or "", dt_s, whole=name_of_all, without_vertical=without_vertical
+            folder, units or "", dt_s, name_of_all=name_of_all, without_vertical=without_vertical
         )
         patterns = [name.casefold() for name in only or ("*",)]
         for name in list(sets):

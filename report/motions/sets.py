@@ -40,7 +40,9 @@ _SPELLED = {
 # A word for the vertical anywhere in a name.
 VERTICAL = re.compile(rf"(?<![a-z])({'|'.join(_SPELLED[_UP, 0])})(?![a-z]|\.[a-z])", re.IGNORECASE)
 
-_NAMED = {word: component for component, words in _SPELLED.items() for word in words}
+_NAMED: dict[str, tuple[str, int]] = {}
+for _component, _words in _SPELLED.items():
+    _NAMED |= dict.fromkeys(_words, _component)
 # Of SEED: network, station, location (whose digits are no azimuth) and channel.
 _IDENTITY = re.compile(r"([a-z0-9]+\.[a-z0-9]+\.[a-z0-9]*)\.([befhs][gln])([enz12])")
 # Of SEED, after band and instrument; of KiK-net, before the number of the sensor.
@@ -109,12 +111,12 @@ def sets_of(
     units: str = "",
     dt_s: float = math.nan,
     *,
-    whole: str = "",
+    name_of_all: str = "",
     without_vertical: bool = False,
 ) -> tuple[Sets, Sequence[Left]]:
     """Return the sets of three in a folder and the folders in it, and what is left.
 
-    A motion that its files do not name has that of the whole, or of the folder. Two horizontal
+    A motion that its files do not name has `name_of_all`, or that of the folder. Two horizontal
     records alone are a set where that is asked. Raises `InputError` if it has more than
     `MOST_FILES` files.
     """
@@ -147,7 +149,9 @@ def sets_of(
         if why := next(_unclear(group, without_vertical), ""):
             unclear.append((_listed(group), why))
         else:
-            name = _short(stem) or PurePosixPath(parent).name or whole or folder.resolve().name
+            name = (
+                _short(stem) or PurePosixPath(parent).name or name_of_all or folder.resolve().name
+            )
             clear.append((name, f"{name} {remainder}".strip(), group))
     clear = list(_corrected(clear, unclear))
     plain = Counter(name for name, _, _ in clear)

@@ -63,6 +63,10 @@ def changes(earlier: Compared, assessment: Assessment) -> Changes:
         *_one(ChangeKind.VERDICT, "Project", earlier.verdict, current.verdict),
         *_results((*arrays, *gaps), UnitFormat(us_first=assessment.project.us_first)),
     ]
+    values = set[tuple[str, str]]()
+    for row, earlier_row in arrays:
+        if row:
+            values |= {(row.id, name) for name in _numbers(row, earlier_row)}
     return Changes(
         revision=earlier.input.project.revision,
         date=earlier.input.project.date.isoformat(),
@@ -72,12 +76,7 @@ def changes(earlier: Compared, assessment: Assessment) -> Changes:
             for row, earlier_row in arrays
             if row and (any(_differing(row, earlier_row)) or any(_numbers(row, earlier_row)))
         ),
-        values=frozenset(
-            (row.id, name)
-            for row, earlier_row in arrays
-            if row
-            for name in _numbers(row, earlier_row)
-        ),
+        values=frozenset(values),
         clearances=frozenset(
             number
             for number, (gap, earlier_row) in enumerate(gaps, start=1)

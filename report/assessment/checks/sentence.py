@@ -134,11 +134,11 @@ def size(check: Check) -> tuple[float, float]:
 
 def _apart(group: Sequence[Check]) -> Amount:
     """Return of amounts that nothing is compared with the one on the safe side."""
-    amounts = [(each.found, each.subject) for each in group if isinstance(each.found, Amount)]
+    amounts = [(check.found, check.subject) for check in group if isinstance(check.found, Amount)]
     is_capacity = amounts[0][0].rounding is Rounding.DOWN
-    found, subject = (min if is_capacity else max)(amounts, key=lambda each: each[0].value)
-    is_one = all(each == found for each, _ in amounts)
-    return found if is_one else replace(found, mark=f"{found.mark} ({subject})")
+    amount, subject = (min if is_capacity else max)(amounts, key=lambda pair: pair[0].value)
+    is_one = all(value == amount for value, _ in amounts)
+    return amount if is_one else replace(amount, mark=f"{amount.mark} ({subject})")
 
 
 def _found(group: Sequence[Check]) -> str:
@@ -147,12 +147,12 @@ def _found(group: Sequence[Check]) -> str:
         [*str(check.found).split("; "), *([check.note] if check.note else [])] for check in group
     ]
     shared = [part for part in all_parts[0] if all(part in parts for parts in all_parts)]
-    own = grouped_by(
-        zip(group, all_parts, strict=True),
-        lambda each: ", ".join(part for part in each[1] if part not in shared),
-    )
-    others = [f"{subjects([check for check, _ in of])}: {text}" for text, of in own.items() if text]
-    return "; ".join([*shared, *others])
+    checks_by_text: dict[str, list[Check]] = {}
+    for check, parts in zip(group, all_parts, strict=True):
+        text = ", ".join(part for part in parts if part not in shared)
+        checks_by_text.setdefault(text, []).append(check)
+    differing = [f"{subjects(checks)}: {text}" for text, checks in checks_by_text.items() if text]
+    return "; ".join([*shared, *differing])
 
 
 def subjects(group: Sequence[Check]) -> str:

@@ -163,10 +163,10 @@ def _beyond(
         value, edge, is_low = array.get(side), getattr(roof, side), "from" in side
         if value is None or (value >= edge if is_low else value <= edge):
             continue
-        shown, limit = (pair(at, Quantity.PLAN, us_first(inputs)) for at in (value, edge))
-        inside, at = "more" if is_low else "less", where(Place("roof", 0, side))
-        text = f"{_label(side)} is {shown}, outside the roof"
-        remedy = f"give {limit} or {inside}, or correct the outline at {at}"
+        entered, limit = (pair(m, Quantity.PLAN, us_first(inputs)) for m in (value, edge))
+        inside, address = "more" if is_low else "less", where(Place("roof", 0, side))
+        text = f"{_label(side)} is {entered}, outside the roof"
+        remedy = f"give {limit} or {inside}, or correct the outline at {address}"
         yield Finding.error(Place("arrays", index, side), text, remedy)
 
 

@@ -155,8 +155,12 @@ def linked(data: ProjectInput) -> ProjectInput:
     ids |= {row.id.casefold(): row.id for row in data.objects}
     parts: dict[str, Any] = {}
     for key, fields in _NAMING.items():
-        parts[key] = tuple(_spelled(row, fields, ids) for row in getattr(data, key))
-
+        rows = []
+        for row in getattr(data, key):
+            names = {field: getattr(row, field) for field in fields}
+            spelled = {field: ids.get(name.casefold(), name) for field, name in names.items()}
+            rows.append(row.model_copy(update=spelled))
+        parts[key] = tuple(rows)
     rings: dict[str, list[Point]] = {}
     for row in parts["outlines"]:
         name = ROOF if row.name.casefold() == ROOF else row.name
@@ -170,8 +174,3 @@ def linked(data: ProjectInput) -> ProjectInput:
     if lost:
         raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
     return data.model_copy(update=parts)
-
-
-def _spelled(row: Frozen, fields: Sequence[str], ids: Mapping[str, str]) -> Frozen:
-    names = {field: getattr(row, field) for field in fields}
-    return row.model_copy(update={key: ids.get(n.casefold(), n) for key, n in names.items()})

@@ -129,10 +129,10 @@ def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]
     return "" if text is None else unit_of(plain(text).strip())
 
 
-def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") -> Any:
+def read_cell(cell: Found, entry: Entry, unit: str, si: float, stated: str = "") -> Any:
     """Return a field's value in SI from a cell that is not blank.
 
-    `unit` is the unit of the number in the cell, for messages, `si` its size, and `shown` what
+    `unit` is the unit of the number in the cell, for messages, `si` its size, and `stated` what
     another cell says of the unit of a number that has none of its own.
 
     Raises `CellError`.
@@ -155,7 +155,7 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, shown: str = "") 
     elif math.isfinite(inches):
         value = inches * INCH_M / si
     else:
-        value = number(cell, remedy, unit or shown)
+        value = number(cell, remedy, unit or stated)
         value = int(value) if entry.kind is int and value.is_integer() else value
     if isinstance(value, float):
         value *= si

@@ -23,11 +23,13 @@ _ROOF = (
 )
 
 
-def _sides(words: tuple[tuple[float, ...], str], of: str = "", need: str = "") -> Iterator[Entry]:
+def _sides(
+    words: tuple[tuple[float, ...], str], owner: str = "", need: str = ""
+) -> Iterator[Entry]:
     examples, note = words
     for field, example in zip(SIDES, examples, strict=True):
         side = field.removesuffix("_m").replace("_", " ")
-        yield Entry(f"{of}{side}", field, example, Quantity.PLAN, need=need, note=note)
+        yield Entry(f"{owner}{side}", field, example, Quantity.PLAN, need=need, note=note)
 
 
 ROOF = block("roof", "Building", "Roof outline and north", Roof, "Optional. The plan shows the"

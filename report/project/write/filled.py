@@ -189,9 +189,9 @@ def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChang
     check_plain(path, path.parent)
     with locked(path.parent):
         for pattern in _OPEN_ELSEWHERE:
-            if os.path.lexists(beside := path.with_name(pattern.format(path.name))):
+            if os.path.lexists(lock := path.with_name(pattern.format(path.name))):
                 raise InputError(
-                    f"{beside}: is there, so a program has the workbook open; close it there, or"
+                    f"{lock}: is there, so a program has the workbook open; close it there, or"
                     " delete that file if none has"
                 )
         change = WorkbookChange(open_book(path))

@@ -74,13 +74,13 @@ def write_block(
         sheet, top, [head if head != unused else "" for head in BLOCK_HEADS], are_heads=True
     )
     rows = rows_of(section, sections)
-    for row, (of, entry) in enumerate(rows, start=top + 1):
+    for row, (part, entry) in enumerate(rows, start=top + 1):
         value = units if entry.kind is UnitsFirst else entry.default
         if example is not None:
-            value = getattr(getattr(example, of.key), entry.name)
+            value = getattr(getattr(example, part.key), entry.name)
         unit = entry.unit_in(is_us=units.is_us)
         style.put_input(sheet.cell(row, 2), entry, value, unit)
-        _write_block_row(sheet, row, of, entry, unit)
+        _write_block_row(sheet, row, part, entry, unit)
     style.make_plain_when_filled(sheet, f"B{top + 1}:C{top + len(rows)}")
     if is_first:
         for column, width in enumerate(BLOCK_WIDTHS, start=1):
@@ -163,7 +163,7 @@ def write_table(
         header=header,
         size=max(BLANK_ROWS if is_first else FEWER_ROWS, len(rows) + SPARE_ROWS),
         headings={column.name: column.heading for column in columns},
-        letters={c.name: get_column_letter(at) for at, c in enumerate(columns, start=FIRST)},
+        letters={c.name: get_column_letter(k) for k, c in enumerate(columns, start=FIRST)},
     )
     if is_first:
         sheet.column_dimensions["A"].width = HINTS_WIDTH
