@@ -1,1 +1,1 @@
-"""Runs, clearances and verdicts of a project. Read `project`."""
+"""Runs, clearances and verdicts of a project. Read `assess`."""

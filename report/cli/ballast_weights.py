@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
+from report.cli.console import plain, say_next
 from report.cli.input_errors import input_errors
-from report.cli.terminal import plain, say_next
 from report.drawing_read.ballast import Load, center_of_gravity, loads, read_map
 from report.drawing_read.fill import fill_ballast as write_ballast
 from report.project.check.finding_lines import listed

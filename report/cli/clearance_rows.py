@@ -10,9 +10,9 @@ import click
 from report.assessment.assess import assess
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.plan.missing_rows import missing_rows, without_clearances
+from report.cli.console import plain, say_next
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
-from report.cli.terminal import plain, say_next
 from report.motions.prepare import prepare
 from report.project.read.read import read_book, without_motions
 from report.project.write.filled import WorkbookChange, changing, withdrawn

@@ -12,9 +12,9 @@ from typing import NoReturn
 
 import click
 
+from report.cli.console import say
 from report.cli.input_errors import input_errors
 from report.cli.one_package import package, show
-from report.cli.terminal import say
 from report.project.read.archive import located, open_book
 from report.results.publish import OUTPUTS
 from report.results.results_json import former_from

@@ -19,7 +19,7 @@ from typing import Any, NoReturn
 
 import click
 
-from report.cli.terminal import INPUT_ERROR, plain, print_json
+from report.cli.console import INPUT_ERROR, plain, print_json
 from report.results.publish import OUTPUTS
 from report.text.command_line import as_typed
 from report.text.counts import numbered

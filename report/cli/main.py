@@ -15,6 +15,7 @@ from typing import Any
 import click
 
 from report.cli.commands.installation import VARIABLE
+from report.cli.console import INPUT_ERROR, INTERRUPTED, color_choice, plain
 from report.cli.lazy_group import LazyGroup
 from report.cli.streams import (
     UntilClosed,
@@ -23,7 +24,6 @@ from report.cli.streams import (
     set_up_console,
     show_warnings,
 )
-from report.cli.terminal import INPUT_ERROR, INTERRUPTED, color_choice, plain
 from report.libraries import stay_apart
 from report.text.command_line import called
 

@@ -10,8 +10,8 @@ from tempfile import TemporaryDirectory
 
 import click
 
+from report.cli.console import plain, say_next
 from report.cli.input_errors import input_errors
-from report.cli.terminal import plain, say_next
 from report.motions.sets import sets_of, table
 from report.motions.stored import unpack
 from report.project.write.filled import changing

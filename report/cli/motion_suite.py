@@ -9,9 +9,9 @@ from typing import Any
 
 import click
 
+from report.cli.console import plain, say_next
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
-from report.cli.terminal import plain, say_next
 from report.project.read.read import read
 from report.project.read.workbook_data import Sheet
 from report.results.added_motions import add_suite, said_near, suite_rows

@@ -9,9 +9,9 @@ from pathlib import Path
 import click
 
 from report.assessment.revision_changes import Changes
+from report.cli.console import NOT_OK, plain, print_json, say
 from report.cli.input_errors import document, input_errors, outputs_of
 from report.cli.progress import Progress
-from report.cli.terminal import NOT_OK, plain, print_json, say
 from report.making import Made, make
 from report.pages import terminal as summaries
 from report.pages.changes import counted

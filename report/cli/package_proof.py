@@ -15,9 +15,9 @@ from pathlib import Path
 
 import click
 
+from report.cli.console import DIFFERS, NOT_COMPARED, plain, print_json, say
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
-from report.cli.terminal import DIFFERS, NOT_COMPARED, plain, print_json, say
 from report.making import make
 from report.proof.opened_package import RecordsMissingError, opened, read_package, take_out
 from report.proof.package_comparison import Agreement, Proof, compared, failed

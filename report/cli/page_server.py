@@ -23,8 +23,8 @@ import click
 import uvicorn
 
 from report.cli.commands.serve import MIN_TOKEN
+from report.cli.console import INPUT_ERROR, INTERNAL_ERROR
 from report.cli.input_errors import input_errors
-from report.cli.terminal import INPUT_ERROR, INTERNAL_ERROR
 from report.web.access import ENTRY, KEY_HEADER, TOKEN_HEADER, Keys
 from report.web.app import made
 from solver.file_checks import read_file

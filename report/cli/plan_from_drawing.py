@@ -14,9 +14,9 @@ import click
 
 from report.cli.clearance_rows import add_clearances
 from report.cli.commands.plan import UNIT_CHOICES
+from report.cli.console import plain, say_next
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
-from report.cli.terminal import plain, say_next
 from report.drawing_read.fill import fill_plan, layers_of, plan_as_rows, unread
 from report.drawing_read.geometry import own_axes
 from report.drawing_read.layer_names import drawn_on, proposed

@@ -10,8 +10,8 @@ from typing import Any
 import click
 
 from report.assessment.precheck import findings, limits_before_runs, missing_clearances
+from report.cli.console import print_json, say
 from report.cli.input_errors import document
-from report.cli.terminal import print_json, say
 from report.motions.prepare import Shaking, prepare
 from report.project.check.finding_lines import in_order
 from report.project.check.finding_lines import lines as finding_lines

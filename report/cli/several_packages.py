@@ -19,6 +19,7 @@ from typing import Any, NoReturn
 
 import click
 
+from report.cli.console import INPUT_ERROR, INTERNAL_ERROR, NOT_OK, colored, plain, print_json, say
 from report.cli.input_errors import (
     SCHEMA_VERSION,
     outputs_of,
@@ -29,7 +30,6 @@ from report.cli.input_errors import (
 )
 from report.cli.one_package import report_one, warn_of_other_packages
 from report.cli.progress import Progress
-from report.cli.terminal import INPUT_ERROR, INTERNAL_ERROR, NOT_OK, colored, plain, print_json, say
 from report.making import make
 from report.results.publish import check_of_workbook, output_folder
 from report.steps import STEPS, Step

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import click
 
+from report.cli.console import colored
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
-from report.cli.terminal import colored
 from report.manual.manual_files import files as manual_files
 from report.results.publish import output_folder, publish
 from report.text.counts import numbered

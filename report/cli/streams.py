@@ -14,7 +14,7 @@ from typing import Any, TextIO
 
 import click
 
-from report.cli.terminal import plain
+from report.cli.console import plain
 
 
 @contextmanager

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
+from report.cli.console import plain
 from report.cli.input_errors import input_errors, workbook_of
 from report.cli.progress import Progress
-from report.cli.terminal import plain
 from report.results.publish import check_apart, check_of_workbook, output_folder
 from report.study.exports import LIBRARY
 from report.study.manifest import NAME

@@ -15,7 +15,7 @@ from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from report.assessment.support.spectra import Spectra
+from report.assessment.support.response_spectra import Spectra
 from report.figures.base import ACCENT, GRAY, INK, PALE, WIDTH_IN, T, bare, style, svg_text
 from solver.model import Floats
 

@@ -1,6 +1,6 @@
 """Reads the components of each motion that a workbook names, and processes them as requested.
 
-Owns how components are combined; `files` reads them, `history` makes motions of them.
+Owns how components are combined; `record_reading` reads them, `history` makes motions of them.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from report.motions.files import Component, Reader, find_file, find_heading, read_component
+from report.motions.record_reading import Component, Reader, find_file, find_heading, read_component
 from report.project.check.motion_faults import LABELS, SHORTEST_S
 from report.project.model.choices import AccelUnit, Baseline, Scaling
 from report.project.model.finding import Finding

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from itertools import chain
 
 from report.motions.components import Components, RecordFile, read_components
-from report.motions.files import bytes_of
 from report.motions.history import PreparedMotion, shake
+from report.motions.record_reading import bytes_of
 from report.motions.repeated_records import repeated
 from report.project.check.motion_faults import LABELS
 from report.project.model import ProjectInput

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
-from report.motions.files import BAR, MAX_BYTES
+from report.motions.record_reading import BAR, MAX_BYTES
 from report.motions.stored import MOST_FILES
 from report.text.aligned import aligned
 from solver.errors import InputError

@@ -11,7 +11,7 @@ from functools import partial
 
 from report.assessment.checks.check import MOTIONS_ID, THIS_PROGRAM
 from report.assessment.checks.sentence import texts
-from report.assessment.support.spectra import LEAST_MEAN, Spectra
+from report.assessment.support.response_spectra import LEAST_MEAN, Spectra
 from report.document.columns import plain, text, words
 from report.document.tables import Column, Table, by_place, listed, stamp
 from report.pages.parts import MOTION_ROWS, PackageData

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from report.assessment.design.routes import Route
-from report.assessment.support.saving import saving
+from report.assessment.support.analysis_saving import saving
 from report.pages.parts import PackageData
 from report.pages.saving import saving_words
 from report.text.letter_case import capitalized

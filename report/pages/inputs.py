@@ -16,7 +16,7 @@ from report.pages import friction_tests
 from report.pages.parts import PackageData, all_or
 from report.pages.site import site_table
 from report.project.model.array import Array
-from report.project.model.site import Site
+from report.project.model.site_input import Site
 from report.text.grouping import grouped_by, ids_by
 from report.text.letter_case import capitalized
 from report.text.names import ranged

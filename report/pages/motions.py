@@ -12,7 +12,7 @@ from markupsafe import Markup
 from report.assessment.checks.motion_checks import DRIFT_M, drifts
 from report.assessment.support.evidence import Evidence
 from report.assessment.support.further_runs import Beyond
-from report.assessment.support.spectra import Departure, Spectra, departures
+from report.assessment.support.response_spectra import Departure, Spectra, departures
 from report.document.columns import centered, length, plain, text, words
 from report.document.tables import Column, Table, headed, listed
 from report.motions.history import OWN, PreparedMotion

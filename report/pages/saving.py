@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 from report.assessment.assessment import Assessment
-from report.assessment.support.saving import Saving, saving
+from report.assessment.support.analysis_saving import Saving, saving
 from report.pages.marks import Marks
 from report.pages.parts import all_or
 from report.text.counts import counted, spelled

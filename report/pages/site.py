@@ -16,7 +16,7 @@ from report.motions.history import OWN, ac156
 from report.pages.parts import PackageData
 from report.project.model import ProjectInput
 from report.project.model.choices import RiskCategory
-from report.project.model.site import Site
+from report.project.model.site_input import Site
 from report.text.units import NO_BREAK, Quantity, number
 from report.typeset.equations import symbol
 from solver.rules import hazard

@@ -9,7 +9,7 @@ import numpy as np
 from markupsafe import Markup
 
 from report.assessment.support.evidence import Evidence
-from report.assessment.support.spectra import PRINTED_S, Spectra
+from report.assessment.support.response_spectra import PRINTED_S, Spectra
 from report.document.columns import text, words
 from report.document.tables import Table, Wide, by_place, listed
 from report.pages.parts import PackageData

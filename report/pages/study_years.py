@@ -9,7 +9,7 @@ from report.assessment.design.arrays import ArrayAssessment
 from report.document.columns import text, words
 from report.document.tables import Table, listed
 from report.pages.parts import PackageData
-from report.project.read.study_years import Distance, YearsOfArray
+from report.project.read.years_file import Distance, YearsOfArray
 from report.text.error_text import general
 from report.text.names import named
 from report.text.unit_format import UnitFormat

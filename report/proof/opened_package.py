@@ -19,7 +19,7 @@ from pydantic import ValidationError
 from pypdf import PdfReader
 from pypdf.generic import ByteStringObject, TextStringObject
 
-from report.motions.files import MAX_BYTES as MAX_RECORD
+from report.motions.record_reading import MAX_BYTES as MAX_RECORD
 from report.project.read.archive import MAX_FILE, MAX_MEMBERS, MAX_TOTAL, MB
 from report.proof.differences import parsed
 from report.proof.pdf_contents import guarded

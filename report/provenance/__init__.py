@@ -1,1 +1,1 @@
-"""What a package was computed from: files, hashes, software. Read `files`, then `software`."""
+"""What a package was computed from: files, hashes, software. Read `package_sources`."""

@@ -22,8 +22,8 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, StringConstraints
 
 from report.motions.components import RecordFile
-from report.motions.files import BAR, MOST_RECORDS
 from report.motions.prepare import Shaking
+from report.motions.record_reading import BAR, MOST_RECORDS
 from report.project.read.workbook_data import Sheet, WorkbookSource
 from report.provenance.release import version
 from report.typeset.finish import Attached

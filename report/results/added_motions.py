@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from pydantic_core import from_json
 
-from report.motions.files import BAR
+from report.motions.record_reading import BAR
 from report.project.check.finding_lines import lines
 from report.project.check.motion_faults import GENERATED, LABELS
 from report.project.model.finding import Finding, limit

@@ -15,7 +15,7 @@ from report.assessment.checks.check import Check
 from report.assessment.checks.sentence import alike, found_and_limit
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.linked_blocks import LinkedArray, LinkedMotion, LinkedRun
-from report.assessment.support.spectra import Spectra
+from report.assessment.support.response_spectra import Spectra
 from report.motions.history import PreparedMotion
 from report.motions.prepare import Shaking
 from report.project.model.choices import Direction

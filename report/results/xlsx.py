@@ -10,7 +10,7 @@ import io
 from collections.abc import Sequence
 
 from report.assessment.assessment import Assessment
-from report.assessment.support.spectra import Spectra
+from report.assessment.support.response_spectra import Spectra
 from report.provenance.package_sources import fingerprint
 from report.results.clearances_sheet import result_cells, write_clearances
 from report.results.design_sheet import DESIGN, write_design, write_inputs, write_peaks

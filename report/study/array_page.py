@@ -13,7 +13,7 @@ from typing import Any
 from report.document.columns import text, words
 from report.document.sections import Section, section
 from report.document.tables import Column, listed
-from report.project.read.study_years import SUPPORTING, Distance, StudyYears, YearsOfArray
+from report.project.read.years_file import SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import study_charts
 from report.study import years as rates
 from report.study.dispersions import (

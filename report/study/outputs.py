@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from report.document.sections import Section, filled, section
 from report.document.templates import rendered
-from report.project.read.study_years import YEARS
+from report.project.read.years_file import YEARS
 from report.results.publish import publish
 from report.study.allowed_answers import allowed
 from report.study.array_page import fragility, sheets, years, years_json

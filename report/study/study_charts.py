@@ -30,7 +30,7 @@ from report.figures.base import (
     style,
     svg_text,
 )
-from report.project.read.study_years import ALWAYS
+from report.project.read.years_file import ALWAYS
 from report.study.study_results import LimitState
 from report.study.years import LIVES, RECURRENCES, ArrayYears
 from report.text.units import Quantity, Unit, digits_down, measured

@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from report.project.read.study_years import ABOVE, ALWAYS, NEVER
+from report.project.read.years_file import ABOVE, ALWAYS, NEVER
 from report.study.capacity_runs import curves_of
 from report.study.study_plan import ArrayPlan, StudyPlan
 from solver.model import Floats

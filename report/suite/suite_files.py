@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from report.assessment.support.spectra import Spectra
+from report.assessment.support.response_spectra import Spectra
 from report.figures.base import png_bytes
 from report.figures.spectrum_charts import spectra
 from report.motions.history import TargetSpectrum

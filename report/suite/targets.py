@@ -9,7 +9,7 @@ from typing import Any
 
 from report.project.check.motion_faults import GENERATED
 from report.project.model.input_rows import Place
-from report.project.model.site import site_parameters
+from report.project.model.site_input import site_parameters
 from report.project.read.typed_text import choice_in
 from report.project.read.workbook_data import Sheet
 from report.suite.target_table import TargetTable

@@ -13,7 +13,7 @@ from report.assessment.checks.check import Actor, Check, condition, stated
 from report.assessment.design.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
 from report.project.model.input_rows import Place
-from report.project.model.site import Site
+from report.project.model.site_input import Site
 from report.text.letter_case import capitalized
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, REFERENCED, HazardBasis
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason

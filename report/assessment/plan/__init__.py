@@ -1,1 +1,1 @@
-"""What the roof plan shows: neighbors, bare edges, envelopes, clearances that are missing."""
+"""What the roof plan shows: neighbors, bare edges, clearances that are missing."""

@@ -18,8 +18,8 @@ from report.assessment.support.further_runs import (
     cumulative,
 )
 from report.assessment.support.input_cases import InputCase, cases
+from report.assessment.support.response_spectra import Spectra, spectra
 from report.assessment.support.shifted_friction import Accuracy, accuracy
-from report.assessment.support.spectra import Spectra, spectra
 from report.assessment.support.uncertainty import Uncertainty, uncertainty
 from solver.model import SlideHistory
 

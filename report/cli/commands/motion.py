@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from report.cli.lazy_group import LazyGroup
-from report.cli.options import AS_JSON, SOURCE, TIME_STEP, UNITS, Existing, Number, reading
+from report.cli.option_types import AS_JSON, SOURCE, TIME_STEP, UNITS, Existing, Number, reading
 
 
 @click.group(cls=LazyGroup)

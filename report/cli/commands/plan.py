@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from report.cli.lazy_group import LazyGroup
-from report.cli.options import SOURCE, Number
+from report.cli.option_types import SOURCE, Number
 
 UNIT_CHOICES = ("in", "ft", "mm", "cm", "m")
 WEIGHT_CHOICES = ("lb", "kip", "N", "kN", "kg")

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from report.cli.options import AS_JSON, FAIL_ON_NG, QUIET, SOURCE
+from report.cli.option_types import AS_JSON, FAIL_ON_NG, QUIET, SOURCE
 
 
 @click.command()

@@ -9,8 +9,8 @@ from typing import Any
 
 import click
 
-from report.cli.options import Existing
-from report.cli.terminal import INPUT_ERROR
+from report.cli.console import INPUT_ERROR
+from report.cli.option_types import Existing
 
 PORT = 8765
 MIN_TOKEN = 20  # characters

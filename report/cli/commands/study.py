@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from report.cli.options import QUIET, SOURCE
+from report.cli.option_types import QUIET, SOURCE
 
 
 @click.command()

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from report.cli.options import SOURCE, Number, reading
+from report.cli.option_types import SOURCE, Number, reading
 
 
 @click.command()

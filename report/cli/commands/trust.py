@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from report.cli.options import AS_JSON, QUIET, SOURCE, Existing
+from report.cli.option_types import AS_JSON, QUIET, SOURCE, Existing
 
 
 @click.command()

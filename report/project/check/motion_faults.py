@@ -12,7 +12,7 @@ from itertools import pairwise
 from report.project.model.choices import RecordedAt, Scaling
 from report.project.model.finding import Finding
 from report.project.model.input_rows import InputRow, Inputs, Place, Where
-from report.project.model.site import site_parameters
+from report.project.model.site_input import site_parameters
 from report.text.units import digits_up
 from solver.building.structure import MOST_STORIES
 

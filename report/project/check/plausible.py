@@ -21,7 +21,7 @@ from report.project.model.input_rows import Place
 from report.project.model.motion_input import MotionInput
 from report.project.model.roof import Clearance, RoofObject
 from report.project.model.shapes import Shape, closest, gap_m
-from report.project.model.site import Site
+from report.project.model.site_input import Site
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry, SheetSection
 from report.text.counts import counted, numbered

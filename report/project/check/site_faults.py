@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from report.project.model.finding import Finding
 from report.project.model.input_rows import InputRow, Inputs, Place, Where
-from report.project.model.site import (
+from report.project.model.site_input import (
     categories,
     category_lacks,
     edition_of_row,

@@ -7,7 +7,7 @@ They are pydantic's, for `model_copy`, JSON and the types that a value of any so
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 from pydantic import Field, model_validator
@@ -27,7 +27,7 @@ from report.project.model.motion_input import BuildingInput, MotionInput, Spectr
 from report.project.model.options import Acknowledgment, Confirmation, Options, Override
 from report.project.model.roof import ROOF, Clearance, DrawingLayer, Roof, RoofObject, Vertex
 from report.project.model.shapes import Point, Shape, ring
-from report.project.model.site import Site
+from report.project.model.site_input import Site
 
 
 class Project(Frozen):

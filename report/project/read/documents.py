@@ -15,7 +15,7 @@ from pydantic import ValidationError
 from report.project.model.finding import Finding
 from report.project.model.input_rows import Inputs, Place
 from report.project.read.archive import OpenBook
-from report.project.read.study_years import YEARS, StudyYears
+from report.project.read.years_file import YEARS, StudyYears
 from report.project.workbook import SECTION
 from report.project.workbook.entries import Entry
 from report.text.grouping import grouped_by

@@ -30,7 +30,7 @@ from report.project.read.positions import (
     unit_size,
 )
 from report.project.workbook import SECTIONS
-from report.project.workbook.answers import ANSWER_HEADINGS
+from report.project.workbook.answer_columns import ANSWER_HEADINGS
 from report.project.workbook.earlier_workbooks import GONE, GoneInput
 from report.project.workbook.entries import Entry, SheetSection
 from solver.errors import InputError, Problem

@@ -6,7 +6,7 @@ import datetime as dt
 
 from report.project.model import Project, Revision
 from report.project.model.friction_report import FrictionTestRow, FrictionTests
-from report.project.model.site import Site, least_category, least_i_e, tabulated_f_a
+from report.project.model.site_input import Site, least_category, least_i_e, tabulated_f_a
 from report.project.workbook.entries import Entry, block, table
 from report.text.units import Quantity
 from solver.rules.site_coefficients import F_A

@@ -17,7 +17,12 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.project.model.choices import Frozen, UnitsFirst
 from report.project.model.options import provision_name
-from report.project.workbook.answers import SITE_ANSWERS, SITE_FORMAT, FormulaColumn, table_answers
+from report.project.workbook.answer_columns import (
+    SITE_ANSWERS,
+    SITE_FORMAT,
+    FormulaColumn,
+    table_answers,
+)
 from report.project.workbook.entries import Entry, SheetSection, rows_of
 from report.project.workbook.layout import TablePlace, Tables, name_cell
 from report.project.write import style

@@ -9,7 +9,7 @@ from openpyxl.utils import get_column_letter, quote_sheetname
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.project.workbook import SECTION, layout
-from report.project.workbook.answers import COLUMNS, KINDS, SEPARATION_ROWS
+from report.project.workbook.answer_columns import COLUMNS, KINDS, SEPARATION_ROWS
 from report.project.write import style
 from report.text.units import LENGTHS
 from solver.model import INCH_M

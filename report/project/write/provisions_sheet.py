@@ -11,7 +11,12 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from report.project.model.options import provision_name, provision_unit
 from report.project.workbook import layout
-from report.project.workbook.answers import BY_FORMULA, IN_DISPLACEMENT, IN_SEPARATION, ONE_VALUE
+from report.project.workbook.answer_columns import (
+    BY_FORMULA,
+    IN_DISPLACEMENT,
+    IN_SEPARATION,
+    ONE_VALUE,
+)
 from report.project.write import style
 from solver.rules.provisions import SEPARATION_KEYS
 from solver.rules.rulesets import ALLOWED, RULE_SETS, RuleSet, usual

@@ -12,7 +12,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.workbook import SECTIONS, answers
+from report.project.workbook import SECTIONS, answer_columns
 from report.project.workbook.layout import Tables, name_cell
 from report.project.write import style
 from report.text.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS, Quantity
@@ -35,27 +35,27 @@ def write_panel(sheet: Worksheet, top: int, tables: Tables, *, is_us: bool) -> i
     style.put_heading(sheet, top, "Before any analysis", _ANSWERS_HINT)
     style.put_values(sheet, top + 2, _HEADS, are_heads=True)
     unit = Quantity.DISPLACEMENT.value[0 if is_us else 1]
-    lengths = f'{answers.decimals_format(unit)}" {unit.symbol}"'
+    lengths = f'{answer_columns.decimals_format(unit)}" {unit.symbol}"'
     row = top + 3
     note = "As entered; if blank, the lowest category permitted by S_DS, S_D1 and S_1."
-    _write_line(sheet, row, ("SDC used", answers.CATEGORY_USED, note), "General")
+    _write_line(sheet, row, ("SDC used", answer_columns.CATEGORY_USED, note), "General")
     name_cell("live_sdc_used", sheet, row, 3)
     note = "The equation or the minimum of the rule set, whichever is larger."
-    prescriptive = ("Prescriptive displacement", answers.prescriptive(unit), note)
+    prescriptive = ("Prescriptive displacement", answer_columns.prescriptive(unit), note)
     _write_line(sheet, row + 1, prescriptive, lengths)
     name_cell("live_prescriptive", sheet, row + 1, 3)
-    worst = answers.written(answers.WORST, tables, "clearances", row + 1)
+    worst = answer_columns.written(answer_columns.WORST, tables, "clearances", row + 1)
     style.put_answer(sheet.cell(row + 1, 7), worst, "0.00")
     note = "Smallest design displacement permitted by analysis without peer review."
     _write_line(
-        sheet, row + 2, ("Floor of the analysis displacement", answers.FLOOR, note), lengths
+        sheet, row + 2, ("Floor of the analysis displacement", answer_columns.FLOOR, note), lengths
     )
     for neighbor, label in _SEPARATIONS.items():
-        number = answers.SEPARATION_ROWS[neighbor]
+        number = answer_columns.SEPARATION_ROWS[neighbor]
         line = row + 2 + number
         factor = "I_e of the building" if neighbor.is_edge else "the largest I_p"
         note = f"PV1-2012: multiplied by {factor}."
-        _write_line(sheet, line, (label, answers.separation(unit, line), note), lengths)
+        _write_line(sheet, line, (label, answer_columns.separation(unit, line), note), lengths)
         style.put(sheet, line, 4, "", color=style.GRAY).value = number
     return row + 3 + len(_SEPARATIONS) + 1
 

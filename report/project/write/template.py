@@ -1,6 +1,6 @@
 """Writes the input workbook from its sections, blank or filled in.
 
-`grids` writes blocks and tables, `style` owns their appearance, `answers` the formulas.
+`grids` writes blocks and tables, `style` owns their appearance, `answer_columns` the formulas.
 """
 
 from __future__ import annotations

@@ -13,10 +13,10 @@ from fixtures.single_runs import prd_m
 from fixtures.workbooks import cell_address, make, problems, read_workbook, type_into
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
+from report.assessment.support.analysis_saving import saving
 from report.assessment.support.evidence import support
 from report.assessment.support.further_runs import building_variations, cumulative
 from report.assessment.support.input_cases import building_case, cases
-from report.assessment.support.saving import saving
 from report.pages.marks import Marks
 from report.pages.saving import saving_words
 from report.project.model.options import Override

@@ -7,7 +7,7 @@ import pytest
 
 from fixtures import assessments, projects
 from fixtures.pages import page_of
-from report.assessment.support.spectra import Spectra, spectra
+from report.assessment.support.response_spectra import Spectra, spectra
 from report.motions.history import TargetSpectrum
 from report.project.model.choices import RecordedAt
 from solver.records.spectrum import response_spectrum

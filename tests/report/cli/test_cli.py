@@ -20,9 +20,9 @@ from fixtures.commands import errors_of, run, stdout_of
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.workbooks import arrays, cell_address, make, project
+from report.cli.console import color_choice, colored
 from report.cli.installation_check import NATIVE
 from report.cli.main import main
-from report.cli.terminal import color_choice, colored
 from report.results.publish import STAMP
 from report.text.command_line import as_typed
 

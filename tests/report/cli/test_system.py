@@ -13,8 +13,8 @@ import pytest
 from fixtures.commands import errors_of, hearing, no_override, stdout_of
 from fixtures.paths import ROOT
 from fixtures.workbooks import cell_address, edit, make, type_into
+from report.cli.console import plain
 from report.cli.several_packages import package
-from report.cli.terminal import plain
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
 FULL = "/dev/full"

@@ -20,8 +20,8 @@ from fixtures.marks import by_day
 from fixtures.packages import unlaid
 from fixtures.paths import ROOT, TESTS
 from fixtures.workbooks import make, type_into
+from report.cli.console import INTERRUPTED
 from report.cli.file_watcher import file_stamps, report_again, settled
-from report.cli.terminal import INTERRUPTED
 from report.results.publish import OUTPUTS
 
 pytestmark = pytest.mark.quick

@@ -17,7 +17,7 @@ from fixtures import assessments, projects
 from fixtures.marks import by_day
 from fixtures.plan_pictures import SMALL, roof_plan
 from fixtures.study_workbooks import limit_state
-from report.assessment.support.spectra import spectra
+from report.assessment.support.response_spectra import spectra
 from report.drawing.sheet import LETTER
 from report.figures import charts as figures
 from report.figures import history_charts

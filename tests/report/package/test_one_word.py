@@ -16,7 +16,7 @@ from fixtures.pages import IDS, page_of
 from report.assessment.assess import reassess
 from report.assessment.checks.sentence import alike
 from report.assessment.design.verdict import Verdict
-from report.assessment.support.spectra import spectra
+from report.assessment.support.response_spectra import spectra
 from report.drawing.on_paper import plan_on_paper
 from report.drawing.plan_layers import plan_drawing
 from report.drawing.sheet import LETTER

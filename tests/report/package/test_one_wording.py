@@ -12,7 +12,7 @@ from report.assessment.checks.sentence import alike, sentence, texts
 from report.assessment.design.verdict import NO_DESIGN
 from report.assessment.precheck import limits_before_runs
 from report.assessment.remedies.remedy import Remedies
-from report.assessment.support.spectra import spectra
+from report.assessment.support.response_spectra import spectra
 from report.pages import attention, terminal
 from report.pages.checks import APART
 from report.results.rows import check_results

@@ -13,7 +13,7 @@ from fixtures.marks import by_day
 from fixtures.pages import page_of
 from report.assessment.checks.sentence import texts as check_texts
 from report.assessment.design.clearances import beside
-from report.assessment.support.spectra import spectra
+from report.assessment.support.response_spectra import spectra
 from report.drawing.plan_layers import plan_drawing
 from report.pages.terminal import summary
 from report.results.results_json import results_json

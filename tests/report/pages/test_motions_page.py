@@ -13,7 +13,7 @@ from openpyxl import Workbook
 from fixtures import assessments, project_parts, projects
 from fixtures.pages import page_of
 from report.assessment.checks.motion_checks import shaking_acceptance
-from report.assessment.support.spectra import spectra
+from report.assessment.support.response_spectra import spectra
 from report.assessment.support.uncertainty import uncertainty
 from report.motions.components import read_components
 from report.motions.history import TargetSpectrum, targets
@@ -22,7 +22,7 @@ from report.project.model.choices import RecordedAt
 from report.project.model.motion_input import MotionInput
 from report.project.read.archive import open_book
 from report.project.read.documents import Document, read_documents
-from report.project.read.study_years import SUPPORTING, StudyYears
+from report.project.read.years_file import SUPPORTING, StudyYears
 from report.web.views import MOST_LEVELS, levels
 from solver.records.acceptance import Acceptance
 from solver.records.record import Record, write_record

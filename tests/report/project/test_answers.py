@@ -28,7 +28,7 @@ from report.project.model.choices import (
     SiteClass,
     UnitsFirst,
 )
-from report.project.model.site import categories, category_lacks, edition_of, site_parameters
+from report.project.model.site_input import categories, category_lacks, edition_of, site_parameters
 from report.project.read.cells import blank_value
 from report.project.read.read import read
 from report.project.workbook import SECTION

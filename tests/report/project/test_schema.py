@@ -25,7 +25,7 @@ from report.project.model import ProjectInput
 from report.project.model.array import slope_rad
 from report.project.model.choices import RuleSetName, SiteClass, SlopeUnit
 from report.project.model.input_rows import Place
-from report.project.model.site import Site
+from report.project.model.site_input import Site
 from report.project.read.read import read
 from report.project.read.what_if import retyped
 from report.project.workbook import SECTIONS

@@ -13,7 +13,7 @@ from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.workbooks import type_into
 from report import making
-from report.motions import files as motion_files
+from report.manual.manual_files import files as record_reading
 from report.motions.prepare import prepare
 from report.project.read.documents import Document
 from report.project.read.read import read
@@ -174,7 +174,7 @@ def test_former_results_are_attached_as_they_were_compared(tmp_path, monkeypatch
 
 
 def test_records_are_kept_up_to_the_limit_and_hashed_beyond_it(job, monkeypatch):
-    monkeypatch.setattr(motion_files, "MOST_RECORDS", 300_000)
+    monkeypatch.setattr(record_reading, "MOST_RECORDS", 300_000)
     sheet = read(EXAMPLE)
     records = prepare(sheet).records
     assert 0 < sum(map(len, sheet.book.records.values())) <= 300_000 < record_bytes(records)

@@ -14,7 +14,7 @@ from fixtures.cells import cell
 from fixtures.libreoffice import converted, recalculated
 from fixtures.marks import by_day
 from fixtures.workbooks import put, row_cells
-from report.assessment.support.spectra import spectra
+from report.assessment.support.response_spectra import spectra
 from report.provenance.package_sources import fingerprint
 from report.results.xlsx import results_xlsx
 from report.text.units import ratio

@@ -11,7 +11,7 @@ from fixtures.cells import address, cell
 from fixtures.libreoffice import recalculated
 from fixtures.workbooks import formula_cells
 from report.assessment.checks.sentence import alike, found_and_limit
-from report.assessment.support.spectra import spectra
+from report.assessment.support.response_spectra import spectra
 from report.provenance.package_sources import fingerprint
 from report.results.sheet_columns import (
     Pages,

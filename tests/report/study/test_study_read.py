@@ -29,7 +29,7 @@ from fixtures.workbooks import edit, type_into
 from projects.study.make import study
 from report.project.model.choices import UnitsFirst
 from report.project.read.read import read
-from report.project.read.study_years import SUPPORTING, StudyYears
+from report.project.read.years_file import SUPPORTING, StudyYears
 from report.study import outputs
 from report.study.hazard_curve import points_of
 from report.study.manifest import manifest_of

@@ -13,7 +13,7 @@ from typing import Any
 
 import click
 
-from report.cli.terminal import NOT_OK
+from report.cli.console import NOT_OK
 from solver.suggestions import meant
 
 
