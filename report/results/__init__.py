@@ -1,1 +1,1 @@
-"""Results as tables: results.json and results.xlsx. Read `json`."""
+"""Results as tables: results.json and results.xlsx. Read `results_json`."""
