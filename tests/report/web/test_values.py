@@ -17,7 +17,7 @@ from fixtures.workbooks import make
 from report.assessment.assess import Extent, assess
 from report.project.model import ProjectInput
 from report.project.model.choices import Scaling, UnitsFirst
-from report.project.model.placed import SIDES
+from report.project.model.shapes import SIDES
 from report.project.read.read import read
 from report.project.read.what_if import retyped
 from report.project.write.template import write_template
