@@ -91,6 +91,7 @@ document.querySelector(".skip").addEventListener("click", (event) => {
 });
 part("undo").addEventListener("click", () => history.back());
 part("reset-all").addEventListener("click", () => session.restore({}));
+for (const kind of ["pointerup", "pointercancel"]) addEventListener(kind, session.release); // wherever the pointer is by then
 part("for-all").addEventListener("click", () => plan.pick(null));
 for (const kind of ["png", "svg"]) part(`save-${kind}`).addEventListener("click", () => saveDrawing(document.querySelector("[role=tabpanel]:not([hidden])"), kind, state.project.name).catch(fail));
 addEventListener("keydown", (event) => {

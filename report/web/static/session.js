@@ -107,9 +107,9 @@ function createRuns(state, set, assess, fail) {
     rest,
     again: () => isMoving || askFull(),
     release() {
-      isHeld = false;
       if (isMoving) rest();
-      else if (state.answer?.pending) askFull();
+      else if (isHeld && state.answer?.pending) askFull();
+      isHeld = false;
     },
     through(values, isStep) {
       const rests = isStep && isFull;

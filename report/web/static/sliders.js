@@ -31,8 +31,6 @@ function slider(item, session) {
     "aria-describedby": `${id}-help`,
     on: {
       input: () => session.move(entered(item, aimed(), input.valueAsNumber), !input.matches(":active")),
-      pointerup: session.release,
-      pointercancel: session.release,
     },
   });
   const set = (value) => {
