@@ -65,6 +65,7 @@ def _still(size: int) -> Floats:
 def forces(scene: Scene) -> Forces:
     """Return the forces on a block (Eqs. 6-9 of the paper, with vertical acceleration added)."""
     ax, ay, az = map(scene.scaled, components(scene))
+    # The roof's acceleration acts on the block as a force the other way, beside gravity.
     down = (scene.g_mps2 + az) * math.sin(scene.slope_rad) - ax * math.cos(scene.slope_rad)
     return Forces(down_mps2=down, across_mps2=-ay, normal_mps2=normal_mps2(scene))
 

@@ -26,7 +26,7 @@ from solver.sliding import checked, one_axis, two_axes
 from solver.verification import model_checks
 from solver.verification.evidence import percent_off
 from solver.verification.study_cases import MODEL_CASES, Case, clocked, posed, samples_of, scene_of
-from solver.verification.study_motions import cut
+from solver.verification.verification_motions import cut
 
 SUBSTEPS = 10
 MOTIONS = 3

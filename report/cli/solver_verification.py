@@ -16,7 +16,7 @@ from report.results.publish import output_folder, publish
 from report.text.counts import numbered
 from solver.verification.building import recorded_buildings
 from solver.verification.run import verify
-from solver.verification.study_motions import recorded_triples
+from solver.verification.verification_motions import recorded_triples
 
 VERIFY_STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 7, 33, 2)
 """Usual shares of the time of the steps that a verification reports, as with --quick."""

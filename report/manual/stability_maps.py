@@ -33,7 +33,7 @@ from report.text.formula_text import lettered
 from report.text.units import G_MPS2
 from solver.model import Floats
 from solver.verification.evidence import RoofComparison, RoofPrediction, StabilityMap
-from solver.verification.study_motions import strongest
+from solver.verification.verification_motions import strongest
 
 # Maps per figure, so that it fits on a page.
 MOST = 4

@@ -1,5 +1,7 @@
 """One limit, with the value found and what follows from a miss.
 
+A roof slope of 3.5 degrees with at most 3 permitted is a miss, whose consequence is NG.
+
 Owns no limit: `solver.rules.provisions` and `solver.records.acceptance` do. Read `Limit`.
 """
 

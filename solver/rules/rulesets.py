@@ -1,5 +1,8 @@
 """The rule sets as data: one table for each adopted document, with clause and confidence.
 
+The separation from a roof edge without a parapet is 1.5 times the displacement by PV1-2012, and
+twice the displacement by ASCE 7.
+
 Rule sets are separate and never mixed. Lengths are in inches, as in the codes. The formulas that
 use these numbers are in `solver.rules.provisions`.
 """

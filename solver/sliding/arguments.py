@@ -1,7 +1,7 @@
-"""Checks what a run is given: records, motions, friction, numbers, the method and its parameters.
+"""Checks the arguments of a run, and makes a scene of them.
 
-Every error is collected before one is raised. Runs nothing: see `solver.sliding.checked`. Read
-`scene_of`.
+A step of -0.1 s with a friction coefficient of -1 is one error of two lines: every error is
+collected before one is raised. Runs nothing (`solver.sliding.checked` does). Read `scene_of`.
 """
 
 from __future__ import annotations

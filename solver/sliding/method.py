@@ -1,5 +1,8 @@
 """What a method of one axis is, the exact one, and where the others are found by their name.
 
+`methods()["paper"]` is the algorithm of Eqs. 1-19 of the paper, with `substeps` for its knob, which
+a study of accuracy sweeps from coarse to fine.
+
 Checks no input (`solver.sliding.arguments`), builds no results (`solver.sliding.one_axis`) and
 integrates nothing itself (`solver.kernels.one_axis`). The rivals, in `solver.rivals.methods`, are
 loaded when one is asked for. Read `Method` first.

@@ -321,6 +321,7 @@ def _solution(
     scene: Scene, model: Model, result: SlideResult, explain: Callable[[], _Explanation]
 ) -> Solution:
     """Return a solution with the next model that the records of the scene are enough for."""
+    # Without a record for a component no model has anything to add.
     following = model
     if model is Model.ONE_AXIS and scene.az_mps2.size:
         following = Model.ONE_AXIS_VERTICAL

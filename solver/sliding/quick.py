@@ -46,6 +46,7 @@ def quick_slide(
         return None
     if not (abs(slope_rad) < math.pi / 2 and 0.0 <= mu < math.inf and g_mps2 > 0.0):
         return None
+    # By identity: a hash of the samples would take longer than the run.
     known = _kept.get(id(record)) or _prepared(record)
     if known is None:
         return None

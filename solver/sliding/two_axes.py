@@ -1,5 +1,8 @@
 """Models 3 and 4: a block in two axes, friction constant or by velocity, to a tolerance.
 
+Samples of 0, 4, -4, 0 m/s2 along and half as much across, at 0.1 s, move a block with mu = 0.2 on a
+flat roof 7.4 mm, and leave it 2.2 mm along and 1.1 mm across.
+
 Computes no physics itself (see `solver.kernels.two_axes`) and checks no input
 (`solver.sliding.arguments` does). Read `solver.model.Scene`, then `follow`.
 """
@@ -187,6 +190,7 @@ def follow_history(scene: Scene, outcome: TwoAxesOutcome) -> tuple[Floats, tuple
     """
     events, samples = np.empty((outcome.n_events, 4)), np.empty((4, len(scene.ax_mps2)))
     _run(scene, bounds_of(scene), outcome.step_tolerance, events, samples)
+    # Of the rows x, y, x', y' the first and the third are along the slope: u = s cos(theta).
     cs = math.cos(scene.slope_rad)
     samples[0::2] *= cs
     kinds = {kernel.SLIP: EventKind.SLIP, kernel.STOP: EventKind.STOP}
@@ -217,7 +221,7 @@ def _run(
         drop = friction.mu_fast - friction.mu_slow
         law = (friction.mu_fast, drop, friction.rate_s_per_m, friction.mu_static)
     ax, ay, az = components(scene)
-    top, end = np.empty(7), np.empty(4)
+    top, end = np.empty(7), np.empty(4)  # the kernel fills them
     outcome, error, n_stops, n_events, n_steps = kernel.slide_plane(
         ax,
         ay,
@@ -226,7 +230,7 @@ def _run(
         scene.dt_s,
         math.sin(scene.slope_rad),
         cs,
-        friction.mu_slow if law is None else 1.0,
+        friction.mu_slow if law is None else 1.0,  # a law has mu in it
         scene.g_mps2,
         scene.scale,
         step,

@@ -141,6 +141,7 @@ def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping
         for name, value in lengths.items()
         if not 0.0 < value < math.inf
     )
+    # A block at rest transmits no more than mu N; while it slides, exactly mu N.
     slips = demand > friction.mu_static
     # The greatest coefficient at any speed.
     kinetic = friction.mu_slow

@@ -124,6 +124,7 @@ class Curve:
                 demand_at(track, np.array([self.slope_rad, 0.0, track.scene.scale * x])) > self.mu
             )
 
+        # On a slope steeper than the friction angle it slips without any shaking.
         if slips(0.0):
             return 0.0
         low, high = 0.0, 1.0

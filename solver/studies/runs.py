@@ -138,6 +138,7 @@ def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
     full = _sweep(track, scenes, track.scene.az_mps2 if track.z is not None else None, track.z)
     level = full if track.z is None else _sweep(track, scenes, None, None)
     demand = _demands(track, scenes)
+    # The kernel gives no number where N falls below zero.
     lifted = np.isnan(full[0])
     still = demand <= scenes[:, 1]
     uses_level = _is_level_enough(track, scenes, level, full) & ~still & ~lifted
@@ -189,6 +190,7 @@ def _is_level_enough(
 
 def _rounding(track: Track, scenes: Floats) -> Floats:
     """Return `one_axis.rounding` of each scene [m]."""
+    # Its terms in its order: a run of a study equals a single run to the bit.
     scene, (x, z) = track.scene, (track.x, track.z)
     sn, cs = np.abs(_by_slope(math.sin, scenes)), _by_slope(math.cos, scenes)
     mu, scale = scenes[:, 1], np.abs(scenes[:, 2])

@@ -1,5 +1,8 @@
 """A study in memory, for a notebook: every slope, friction and intensity under every motion.
 
+Two slopes, three coefficients and five intensities are 30 cases; under seven motions of one
+component in two polarities they are 420 runs.
+
 Workbooks, parts on disk and clusters are those of `report.study`. Read `study`, then `StudyRuns`.
 """
 

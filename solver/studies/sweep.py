@@ -1,5 +1,7 @@
 """Many scenes at once: all combinations of slope, friction coefficient and scale of a record.
 
+Three slopes, four friction coefficients and five scales are 60 runs of one record.
+
 Plans the work and shapes the results; each run is `solver.kernels.one_axis.slide_exact`.
 Read `solver.sliding.checked` for a single run.
 """
@@ -360,7 +362,7 @@ def _run(
     s = outcomes.reshape(slopes.size, mus.size, scales.size, 4)
     # The same product as in a single run, so that both results agree to the last bit.
     cs = np.array([math.cos(slope) for slope in slopes])[:, None, None]
-    # Indices of `STATUSES`.
+    # Indices of `STATUSES`: no number is uplift, and a speed at the end a slide that is not over.
     status = np.where(np.isnan(s[..., 0]), 2, np.where(s[..., 3] == 0.0, 0, 1))
     return Sweep(
         slopes_rad=slopes,

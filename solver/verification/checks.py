@@ -22,7 +22,7 @@ from solver.verification import reference, study_cases
 from solver.verification.evidence import ROUNDING, Verified, percent_of
 from solver.verification.reference import Reference
 from solver.verification.study_cases import Case, run, runnable_methods
-from solver.verification.study_motions import scale_to
+from solver.verification.verification_motions import scale_to
 
 # Gravity in the closed forms [m/s2], as in their printed values.
 G = 9.81

@@ -32,7 +32,7 @@ from solver.verification.study_cases import (
     scene_of,
     scenes_of,
 )
-from solver.verification.study_motions import RECORDED, cut
+from solver.verification.verification_motions import RECORDED, cut
 
 AGREES = 1e-9
 """Tolerance where two computations agree to rounding error and the tightest tolerance."""

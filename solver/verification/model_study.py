@@ -35,7 +35,7 @@ from solver.verification.evidence import (
     ModelStudy,
 )
 from solver.verification.study_cases import faded, flat_scene, grid, plane_prds, scenes_of
-from solver.verification.study_motions import RECORDED
+from solver.verification.verification_motions import RECORDED
 
 ACROSS_MPS2 = (0.0, 1e-9, 1e-6, 0.1)
 """Transverse accelerations of the block that is driven back [m/s2]."""

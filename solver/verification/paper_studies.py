@@ -17,7 +17,7 @@ from solver.rivals.methods import METHODS
 from solver.studies.sweep import sweep
 from solver.verification.evidence import DesignCurves, LinkComparison, percent_of, percent_off
 from solver.verification.study_cases import clocked, grid, history, prepared, run
-from solver.verification.study_motions import scale_to
+from solver.verification.verification_motions import scale_to
 from solver.verification.workprecision import timed
 
 CONVERGENCE_CASES = grid((-7.0, -4.0, 0.0, 4.0, 7.0), (0.0, 0.1, 0.5), (0.0, 0.18, 1.0, 1.44))

@@ -25,7 +25,7 @@ from solver.verification import (
 from solver.verification.building import FloorRecords
 from solver.verification.evidence import Verification, Verified
 from solver.verification.study_cases import compared_runs
-from solver.verification.study_motions import own_records, own_triples
+from solver.verification.verification_motions import own_records, own_triples
 
 
 def verify(

@@ -21,7 +21,7 @@ from solver.sliding.method import link_frequency
 from solver.studies.sweep import sweep
 from solver.verification.evidence import Conditioning, StabilityMap, percent_off
 from solver.verification.study_cases import CASES, Case, run
-from solver.verification.study_motions import scale_to, shortened
+from solver.verification.verification_motions import scale_to, shortened
 
 SLOPE_DEG = 4.0
 # Least friction without slip on an unshaken roof of that slope.

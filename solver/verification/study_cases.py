@@ -34,7 +34,7 @@ from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding import checked, one_axis, two_axes
 from solver.sliding.method import AxisScene, Method
-from solver.verification.study_motions import own_records, scale_to, triple_scale
+from solver.verification.verification_motions import own_records, scale_to, triple_scale
 
 
 class Case(NamedTuple):

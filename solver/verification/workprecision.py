@@ -41,7 +41,7 @@ from solver.verification.study_cases import (
     samples_of,
     scene_of,
 )
-from solver.verification.study_motions import cut
+from solver.verification.verification_motions import cut
 
 NO_SAMPLES = np.empty((2, 0))
 TIME, SINGLE = "time per run [s]", "time of a single run [s]"

@@ -31,7 +31,7 @@ from solver.records.record import NO_RECORD, read_only
 from solver.sliding import model_selection, one_axis, two_axes
 from solver.verification import model_study
 from solver.verification.evidence import WORST
-from solver.verification.study_motions import own_triples, recorded_triples
+from solver.verification.verification_motions import own_triples, recorded_triples
 
 SCENES = 30 if SMOKE else 10_000
 KINDS, ACROSS = ("noise", "periodic", "recorded"), ("like it", "noise", "push")

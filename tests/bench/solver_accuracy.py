@@ -25,7 +25,7 @@ from solver.sliding.checked import slide
 from solver.sliding.two_axes import follow
 from solver.sliding.uplift import uplift
 from solver.verification.study_cases import Case, scene_of
-from solver.verification.study_motions import cut, own_triples, recorded_triples
+from solver.verification.verification_motions import cut, own_triples, recorded_triples
 
 # Slope [deg], friction coefficient, PPA [g].
 SCENES = ((0.0, 0.1, 1.0), (4.0, 0.3, 1.5), (-7.0, 0.5, 2.0), (2.0, 0.45, 1.5))

@@ -31,7 +31,7 @@ from solver.sliding.row import slide_row
 from solver.studies.sweep import order_alike
 from solver.verification.model_study import by_speed, row_of
 from solver.verification.study_cases import Case, scene_of
-from solver.verification.study_motions import own_triples
+from solver.verification.verification_motions import own_triples
 
 SLOPES = [math.radians(0.5 * k) for k in range(-14, 15)]
 FRICTIONS = [0.1 + 0.05 * k for k in range(15)]

@@ -25,7 +25,7 @@ from solver.rivals.methods import METHODS
 from solver.sliding.two_axes import DEFAULT_TOLERANCE
 from solver.verification import checks, workprecision
 from solver.verification.study_cases import CASES, compared_runs
-from solver.verification.study_motions import own_triples
+from solver.verification.verification_motions import own_triples
 from solver.verification.workprecision import OURS, SCIPY, SINGLE, TIME, times_longer, work_points
 
 PICTURES = ROOT / "docs" / "pictures"

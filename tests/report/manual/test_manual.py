@@ -36,7 +36,12 @@ from solver.verification.building import (
 )
 from solver.verification.evidence import HELD, SECOND
 from solver.verification.study_cases import CASES
-from solver.verification.study_motions import near_fault_pulse, own_records, own_triples, shortened
+from solver.verification.verification_motions import (
+    near_fault_pulse,
+    own_records,
+    own_triples,
+    shortened,
+)
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"

@@ -23,7 +23,7 @@ from solver.sliding.method import link_frequency
 from solver.verification import reference
 from solver.verification.model_checks import stopped_scene
 from solver.verification.study_cases import Case, samples_of, scene_of
-from solver.verification.study_motions import cut, own_triples
+from solver.verification.verification_motions import cut, own_triples
 
 G = 9.80665
 STEPPED = ("paper", "linear", "adaptive")

@@ -16,7 +16,7 @@ from solver.studies.curves import first_allowed, statistics
 from solver.studies.runs import LENGTHS, STATUSES, Runner, run_part
 from solver.verification.paper_studies import MUS as PAPER_MUS
 from solver.verification.paper_studies import PPAS_G, SLOPES_DEG, design_curves
-from solver.verification.study_motions import own_records, scale_to
+from solver.verification.verification_motions import own_records, scale_to
 
 pytestmark = pytest.mark.quick
 

@@ -16,7 +16,7 @@ from solver.rivals.methods import METHODS
 from solver.sliding import one_axis
 from solver.verification import stability, study_cases, workprecision
 from solver.verification.study_cases import CASES, compared_runs
-from solver.verification.study_motions import near_fault_pulse, own_triples, shortened
+from solver.verification.verification_motions import near_fault_pulse, own_triples, shortened
 
 
 @pytest.fixture(scope="module")

@@ -23,7 +23,7 @@ from solver.verification.reference import (
     yield_accelerations,
 )
 from solver.verification.study_cases import Case
-from solver.verification.study_motions import (
+from solver.verification.verification_motions import (
     near_fault_pulse,
     own_records,
     own_triples,

@@ -13,7 +13,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, HorizontalComponent, Orientation
 from solver.records.record import read_only
 from solver.sliding import one_axis, two_axes
 from solver.sliding.checked import motion, slide
-from solver.verification import model_checks, model_study, study_cases, study_motions
+from solver.verification import model_checks, model_study, study_cases, verification_motions
 from solver.verification.evidence import (
     HELD,
     LEAST_M,
@@ -27,7 +27,7 @@ from solver.verification.evidence import (
     ModelChange,
 )
 from solver.verification.study_cases import AS_RECORDED, Case
-from solver.verification.study_motions import (
+from solver.verification.verification_motions import (
     near_fault_pulse,
     own_triples,
     scale_to,
@@ -99,19 +99,19 @@ def test_the_best_point_is_the_first_of_the_least():
 
 @pytest.fixture(scope="module")
 def own():
-    (only,) = study_motions.own_triples(True)
+    (only,) = verification_motions.own_triples(True)
     return only
 
 
 @pytest.mark.quick
 def test_own_and_recorded_motions_have_one_factor_and_a_part_is_the_strongest(own, tmp_path):
-    assert np.shares_memory(own.ax_mps2, study_motions.own_records(True)[0].a_mps2)
-    assert own.source != study_motions.RECORDED
+    assert np.shares_memory(own.ax_mps2, verification_motions.own_records(True)[0].a_mps2)
+    assert own.source != verification_motions.RECORDED
     assert not np.array_equal(own.ax_mps2, own.ay_mps2)
-    scale = study_motions.triple_scale(own, 0.5)
+    scale = verification_motions.triple_scale(own, 0.5)
     peaks = [np.abs(a).max() * scale for a in (own.ax_mps2, own.ay_mps2)]
     assert max(peaks) == pytest.approx(0.5 * 9.80665)
-    part = study_motions.cut(own, 101)
+    part = verification_motions.cut(own, 101)
     assert part.ax_mps2.size == part.ay_mps2.size == part.az_mps2.size == 101
     assert not part.ax_mps2.flags.writeable
     energy = np.sum(part.ax_mps2**2 + part.ay_mps2**2)
@@ -120,9 +120,9 @@ def test_own_and_recorded_motions_have_one_factor_and_a_part_is_the_strongest(ow
     for path in SAMPLES.iterdir():
         shutil.copy(path, tmp_path / "below" / path.name)
     (tmp_path / "notes.txt").write_text("no motion")
-    triples = study_motions.recorded_triples(tmp_path)
+    triples = verification_motions.recorded_triples(tmp_path)
     assert triples
-    assert all(triple.source == study_motions.RECORDED for triple in triples)
+    assert all(triple.source == verification_motions.RECORDED for triple in triples)
     assert all(
         triple.ax_mps2.size == triple.ay_mps2.size == triple.az_mps2.size for triple in triples
     )
@@ -131,7 +131,7 @@ def test_own_and_recorded_motions_have_one_factor_and_a_part_is_the_strongest(ow
 def test_the_vertical_is_told_by_its_name_wherever_it_stands():
     if not RECORDS.is_dir():
         pytest.skip("the real records are not here")
-    triples = {triple.id: triple for triple in study_motions.recorded_triples(RECORDS)}
+    triples = {triple.id: triple for triple in verification_motions.recorded_triples(RECORDS)}
     assert np.abs(triples["20161113_110259_WTMC_20"].az_mps2).max() == pytest.approx(
         18.02, abs=0.01
     )
