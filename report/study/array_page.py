@@ -130,7 +130,7 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
         array=array_years.plan.array,
         hazard=results.plan.input.hazard,
         curve=curve,
-        first_end=float(ends.min()),
+        lifts=ends.min() < 0.999 * curve.top,
         top=float(ends.max()),
         of_friction=[
             (mu, [design_length(results, prd_m) for prd_m in row])

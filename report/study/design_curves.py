@@ -39,13 +39,14 @@ def curves(results: StudyResults, building: int) -> Section:
     sloped = drawn_mus if len(study_input.slopes_deg) > 1 else []
     sheets, slopes = list(_sheets(results, building)), some(study_input.slopes_deg, MOST_LINES)
     values, mean = _drawn(results, building)
+    is_low = study_input.study.intensity.unit == "g" and study_input.intensities[0] < LOW_G
     return section(
         "study/curves",
         f"Design curves{on_building(results, building, ', building ')}",
         id=f"curves-{building}",
         named={m: friction_name(results, study_input.mus[m]) for m in drawn_mus},
         sheets=[(name, is_thick) for name, _, is_thick in sheets],
-        LOW_G=LOW_G,
+        left=f" Left, up to {LOW_G} g: on a logarithmic axis." if is_low else "",
         place=results.plan.motions.buildings[building],
         middle=study_input.intensities[len(study_input.intensities) // 2],
         displacements=_displacements(results, building),

@@ -138,7 +138,7 @@ def _content(results: StudyResults, building: int, fit: Fit) -> Mapping[str, Any
     return {
         "lacking": "",
         "fit": fit,
-        "b": [_digits(value).replace("-", "−") for value in fit.coefficients],
+        "terms": _terms(fit.coefficients),
         "ppa_g": _digits(fit.ppa_g),
         "sigma": number(round_up(fit.sigma_ln, 2), 2),
         # Outward: every ratio is within what is printed; the domain below inward: all of it is
@@ -149,6 +149,15 @@ def _content(results: StudyResults, building: int, fit: Fit) -> Mapping[str, Any
         "domain": {name: _inward(*ends) for name, ends in fit.domain.items()},
         "beside": _beside(results, building, fit),
     }
+
+
+def _terms(coefficients: Sequence[float]) -> str:
+    """Return the right-hand side of the formula."""
+    first, *factors = coefficients
+    terms = [f"{'−' * (first < 0.0)}{_digits(abs(first))}"]
+    for factor, variable in zip(factors, ("ln(1 − r)", "ln r", "ln x", "θ/μ"), strict=True):
+        terms += ["−" if factor < 0.0 else "+", _digits(abs(factor)), variable]
+    return " ".join(terms)
 
 
 def _digits(value: float) -> str:

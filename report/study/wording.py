@@ -39,6 +39,7 @@ def context(results: StudyResults) -> dict[str, Any]:
         "level": partial(level, results),
         "on": partial(on_building, results),
         "with_symbols": with_symbols,
+        "max_slope": min("ibc_max_slope_deg", "analysis_max_slope_deg", key=rule.rules.__getitem__),
         "separations": sorted(SEPARATION_KEYS.values(), key=lambda key: rule.rules[key]),
         "is_refused": is_refused(results),
         "is_warned": is_warned(results),
