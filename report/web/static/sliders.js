@@ -31,6 +31,7 @@ function slider(item, session) {
     "aria-describedby": `${id}-help`,
     on: {
       input: () => session.move(entered(item, aimed(), input.valueAsNumber), !input.matches(":active")),
+      pointerdown: () => field.input.blur(), // else what is half typed there is entered after this
     },
   });
   const set = (value) => {

@@ -17,6 +17,7 @@ from fixtures.browser import (
     opened,
     processes_of,
     quiet_page,
+    tab_to,
     verdicts,
 )
 from fixtures.marks import by_day
@@ -337,6 +338,16 @@ def test_the_verdict_blanks_with_the_change_and_stays_so_until_its_answer(page, 
 
 
 @pytest.mark.nightly
+def test_a_slider_replaces_what_was_half_typed_in_its_field(page):
+    page.get_by_label("μ of all").fill("0.42")
+    drag(page)
+    page.mouse.up()
+    page.wait_for_url(re.compile(r"#friction=[\d.]+$"))
+    at_rest(page)
+    assert page.get_by_label("μ of all").input_value() == ""  # of each array another one
+
+
+@pytest.mark.nightly
 def test_the_workbook_values_have_their_answer_at_once(page):
     before = verdicts(page)
     moved(page, "slope", 1.5)
@@ -350,16 +361,9 @@ def test_the_workbook_values_have_their_answer_at_once(page):
 
 @pytest.mark.nightly
 def test_the_page_works_with_the_keyboard_alone(page):
-    def tabbed_to(selector):
-        for _ in range(70):
-            page.keyboard.press("Tab")
-            if page.locator(selector).evaluate("(found) => found === document.activeElement"):
-                return
-        raise AssertionError(f"Tab does not reach {selector}")
-
-    tabbed_to("#files")
-    tabbed_to("#make-package")
-    tabbed_to("#slider-friction")
+    tab_to(page, page.locator("#files"))
+    tab_to(page, page.locator("#make-package"))
+    tab_to(page, page.locator("#slider-friction"))
     page.keyboard.press("ArrowLeft")
     page.wait_for_url("**/#friction=0.99")
     page.locator(".skip").press("Enter")
@@ -368,12 +372,12 @@ def test_the_page_works_with_the_keyboard_alone(page):
         "#friction=0.99",
         "With Friction × 0.99",
     )
-    tabbed_to("#tab-plan")
+    tab_to(page, page.locator("#tab-plan"))
     page.keyboard.press("End")
     assert page.locator("#contour").is_visible()
     page.keyboard.press("Home")
     assert page.locator("#plan").is_visible()
-    tabbed_to('[data-name="A2"]')
+    tab_to(page, page.locator('[data-name="A2"]'))
     page.keyboard.press("Enter")
     assert "A2" in page.inner_text("#bars caption")
     assert page.evaluate("document.activeElement.dataset.name") == "A2"

@@ -25,6 +25,7 @@ from fixtures.browser import (
     quiet_page,
     saved,
     served,
+    tab_to,
 )
 from fixtures.commands import stdout_of
 from fixtures.dxf import BOX_FT, ROOF_FT, Sketch
@@ -294,6 +295,55 @@ def test_the_package_the_workbook_and_the_page_agree(page, tmp_path):
     assert all(value.removesuffix(" in") in summary for value in design)
     moved(page, "friction", 0.95)
     assert "before the last change" in page.inner_text("#package-status")
+
+
+NEEDED = {
+    "project name is missing": "Shed", "project number is missing": "S-1",
+    "prepared by is missing": "RG", "date is missing": "2026-03-05", "revision is missing": "0",
+    "rule set is missing": "ASCE 7-16", "risk category is missing": "II",
+    "number of stories is missing": "1", "structure height h is missing": "24",
+    "roof height z is missing": "24",
+    "ID, B8": "A1", "Slope, C8": "1", "Slope unit, D8": "d", "Friction coefficient, E8": "0.5",
+    "Construction, G8": "Tray", "Weight [lb], K8": "10000", "CG height [in], L8": "9",
+    "Support spacing [in], M8": "40", "x from [ft], N8": "5", "x to [ft], O8": "25",
+    "y from [ft], P8": "5", "y to [ft], Q8": "30", "Downslope direction [deg], R8": "270",
+}  # fmt: skip
+"""What a new project needs before it is asked for S_DS, in the order of its fields."""
+
+
+@pytest.mark.nightly
+def test_a_new_project_is_typed_and_its_package_made_with_the_keyboard_alone(page):
+    def press(name):
+        tab_to(page, page.get_by_role("button", name=name).first)
+        page.keyboard.press("Enter")
+
+    def enter(label, text):
+        tab_to(page, page.get_by_label(label, exact=True).first)
+        page.keyboard.type(text)
+
+    press("New project")
+    page.get_by_text("no array is given").wait_for()
+    for label, text in NEEDED.items():
+        enter(label, text)
+    press("Fill in and check")
+    page.get_by_text("no array is given").wait_for(state="detached")
+    for label, text in (("S_DS is missing", "1.0"), ("seismic design category is missing", "D")):
+        enter(label, text)
+        press("Fill in and check")
+        page.get_by_label(label).wait_for(state="hidden")
+    page.get_by_role("heading", name="Shed").wait_for()
+    at_rest(page)
+    tab_to(page, page.get_by_role("slider", name="SDS"))
+    page.keyboard.press("ArrowLeft")
+    page.wait_for_url("**/#s_ds=0.98")
+    at_rest(page)
+    press("Make package")
+    page.get_by_text("Calc package").wait_for(timeout=150_000)
+    _, made = saved(page, lambda: press("results.json"))
+    results = json.loads(made)
+    assert results["s_ds_g"] == pytest.approx(0.98)
+    (array,) = results["arrays"]
+    assert numbers(page, "arrays", 2) == [f"{array['design_m'] / INCH_M:.1f} in"]
 
 
 @pytest.mark.nightly
