@@ -218,26 +218,28 @@ def test_at_any_two_controls_the_answer_is_that_of_the_saved_workbook(
 
 def assert_shown(page, package):
     """Assert that lengths and verdicts of the page are those of results.json, as rounded."""
-    designs = {id: row["Design Δ"] for row in rows(page["arrays"]) for id in row["Array"]["ids"]}
+    arrays, clearances = (table_rows(page["html"][name]) for name in ("arrays", "clearances"))
+    picks = [(pick, row["Design Δ"]) for row in arrays for pick in row["Array"].iter("button")]
+    designs = {pick.get("data-name"): words(design) for pick, design in picks}
     assert page["verdict"]["text"] == package.verdict
     for array in package.arrays:
         if array.design_permitted:
             assert array.design_m == rounded(designs.pop(array.id))
         else:
-            assert designs.pop(array.id)["text"] == "not permitted"
+            assert designs.pop(array.id) == "not permitted"
     assert not designs
-    for gap, row in zip(package.clearances, rows(page["clearances"]), strict=False):
-        assert (f"{gap.array} to {gap.object}", gap.provided_m, gap.required_m, gap.verdict) == (
-            row["From, to"]["text"], rounded(row["Provided"]), rounded(row["Required"]),
-            row["Verdict"]["text"],
-        )  # fmt: skip
+    for gap, row in zip(package.clearances, clearances, strict=False):
+        assert row["From, to"].get("title") == f"{gap.array} to {gap.object}"
+        assert gap.provided_m == rounded(words(row["Provided"]))
+        assert gap.required_m == rounded(words(row["Required"]))
+        assert words(row["Verdict"]) == gap.verdict
 
 
-def rounded(cell):
+def rounded(text):
     """A length that is shown, within one in its last digit."""
-    if cell["text"] == "no value":
+    if text == "no value":
         return pytest.approx(math.nan, nan_ok=True)
-    number, unit = cell["text"].split()
+    number, unit = text.split()
     one_m = {"mm": 1e-3, "in": 0.0254}[unit]
     return pytest.approx(float(number) * one_m, abs=one_m * (0.1 if "." in number else 1.0))
 
