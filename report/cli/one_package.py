@@ -32,15 +32,8 @@ def report_one(
 ) -> None:
     """Make the package of a project, and print its summary."""
     lines: list[str] = []
-    made = package(
-        source,
-        out,
-        since,
-        quiet=quiet,
-        as_json=as_json,
-        on_record=lines.append,
-        has_page=has_page,
-    )
+    flags = {"quiet": quiet, "as_json": as_json, "has_page": has_page}
+    made = package(source, out, since, on_record=lines.append, **flags)
     if as_json:
         files = {"files": [str(made.folder / name) for name in made.files]}
         workbook = made.assessment.source.path

@@ -53,33 +53,18 @@ class ReportOutcome:
 
 
 def report_projects(
-    sources: Sequence[Path],
-    out: Path | None,
-    since: Path | None,
-    *,
-    fail_on_ng: bool,
-    quiet: bool,
-    as_json: bool,
-    has_page: bool,
+    sources: Sequence[Path], out: Path | None, since: Path | None, **options: bool
 ) -> None:
     """Make the package of one project, or those of several with one table."""
     if len(sources) == 1:
-        report_one(
-            sources[0],
-            out,
-            since,
-            fail_on_ng=fail_on_ng,
-            quiet=quiet,
-            as_json=as_json,
-            has_page=has_page,
-        )
+        report_one(sources[0], out, since, **options)
         return
     if out or since:
         raise click.UsageError(
             "--out and --since are of one project; leave them out, and each project is written "
             "to its own out/, or report each on its own"
         )
-    report_several(sources, fail_on_ng=fail_on_ng, quiet=quiet, as_json=as_json, has_page=has_page)
+    report_several(sources, **options)
 
 
 def report_several(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Set
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Generic, Self, TypeVar
@@ -51,7 +51,7 @@ class WorkbookSource:
     path: Path
     sha256: str  # of the workbook
     addresses: Mapping[Place, str]
-    documents: tuple[Document, ...]  # beside it, that the package attaches
+    documents: tuple[Document, ...] = ()  # beside it, that the package attaches
     echo: tuple[EchoRow, ...]  # every field, sheet by sheet and row by row
     unseen: tuple[Unseen, ...]
     warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
@@ -61,23 +61,16 @@ Whole = TypeVar("Whole", bound=Frozen)
 
 
 @dataclass(frozen=True, kw_only=True)
-class SheetOf(Generic[Whole]):
+class SheetOf(WorkbookSource, Generic[Whole]):
     """A workbook as data, with every problem found in it."""
 
-    path: Path
-    sha256: str  # of the workbook
     book: OpenBook  # for columns pasted into it and files beside it
     whole: type[Whole]  # what it is the input of
     sections: tuple[SheetSection, ...]  # of that
     inputs: Inputs
-    echo: tuple[EchoRow, ...]  # every field, sheet by sheet and row by row
     problems: tuple[tuple[Place, Problem], ...]
-    addresses: Mapping[Place, str]
     unfound: frozenset[str]  # sections
-    unseen: tuple[Unseen, ...]
-    warnings: tuple[Finding, ...]  # on sheets that are ignored, and values that may be former ones
     check: Callable[[Inputs, Where], Iterable[Finding]] = faults
-    documents: tuple[Document, ...] = ()  # beside it, that the package attaches
 
     @cached_property
     def project(self) -> Whole:
@@ -92,15 +85,9 @@ class SheetOf(Generic[Whole]):
 
     @property
     def source(self) -> WorkbookSource:
-        """What a package says of the workbook."""
+        """What a package says of the workbook, without its file and its inputs."""
         return WorkbookSource(
-            path=self.path,
-            sha256=self.sha256,
-            addresses=self.addresses,
-            documents=self.documents,
-            echo=self.echo,
-            unseen=self.unseen,
-            warnings=self.warnings,
+            **{key.name: getattr(self, key.name) for key in fields(WorkbookSource)}
         )
 
     @cached_property
@@ -155,8 +142,8 @@ class SheetOf(Generic[Whole]):
 
         def rank(problem: tuple[Place, Problem]) -> tuple[int, int, int]:
             section, row, field = problem[0]
-            fields = names[section]
-            return order[section], row, fields.index(field) if field in fields else -1
+            columns = names[section]
+            return order[section], row, columns.index(field) if field in columns else -1
 
         if problems:
             raise InputError(
