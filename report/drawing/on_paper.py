@@ -26,7 +26,7 @@ from report.drawing.legend import draw_key, key_on_paper
 from report.drawing.paper_items import Mark, level, width_in
 from report.drawing.placer import Frame, Placer, centered
 from report.drawing.plan_layers import outlines
-from report.drawing.plan_tables import Schedule, alike_arrays, beside
+from report.drawing.plan_tables import Schedule, alike_arrays, fitted_schedule
 from report.drawing.sheet import (
     A3,
     A4,
@@ -176,7 +176,7 @@ class PrintedPlan(NamedTuple):
 def printed_plan(assessment: Assessment) -> PrintedPlan:
     """Return the plan on the paper asked for, or on the first that has room for all."""
     arrays = alike_arrays(assessment, unit_format(assessment))
-    schedules = {size: beside(assessment, arrays, size) for size in _sizes(assessment)}
+    schedules = {size: fitted_schedule(assessment, arrays, size) for size in _sizes(assessment)}
     # A plan whose schedule has no room beside it need not be drawn.
     roomy = [
         size for size, rows in schedules.items() if not size.columns or rows.is_all(assessment)

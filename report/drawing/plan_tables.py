@@ -1,6 +1,6 @@
 """What the tables beside a printed roof plan have room for: arrays that are alike, and clearances.
 
-Twelve arrays of one size, slope and displacement are one row, `A1 to A12`. Read `beside`.
+Twelve arrays of one size, slope and displacement are one row, `A1 to A12`. Read `fitted_schedule`.
 """
 
 from __future__ import annotations
@@ -69,7 +69,9 @@ class Schedule(NamedTuple):
         return self.has_arrays and sum(self.rows) == len(assessment.clearances)
 
 
-def beside(assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize) -> Schedule:
+def fitted_schedule(
+    assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize
+) -> Schedule:
     """Return what has room beside a plan."""
     room = size.tall + _BELOW_IN
     arrays_tall = _AROUND_ARRAYS_IN

@@ -17,7 +17,7 @@ from solver.errors import InputError
 from solver.formats.record_file import MotionFile, distinct
 from solver.formats.source import Source, Stated
 from solver.model import Floats
-from solver.records.record import UNITS, Record, check_gaps, check_peak, has_gravity, own, shown
+from solver.records.record import UNITS, Record, check_gaps, check_peak, has_gravity, own, quoted
 
 MAX_CHANNELS = 1000
 COMPONENTS = 3
@@ -223,7 +223,7 @@ def check_only_blank(source: Source, first: int, stop: int, before: str) -> None
     for index in range(first, stop):
         if source.lines[index].strip():
             raise InputError(
-                f"{source.at(index)}: found {shown(source.lines[index].strip())} after {before},"
+                f"{source.at(index)}: found {quoted(source.lines[index].strip())} after {before},"
                 " where a heading is due; give the whole file"
             )
 

@@ -28,7 +28,7 @@ from solver.formats.plain_lines import (
     separator_of,
 )
 from solver.formats.source import Source, Stated
-from solver.records.record import shown, unit_size
+from solver.records.record import quoted, unit_size
 
 _MAX_REMARKS = 200
 
@@ -73,13 +73,13 @@ class Layout:
         place = self.source.at(self.heading_index)
         if heading.is_index:
             raise InputError(
-                f"{place}: found {shown(heading.text)} over the first column; give times in"
+                f"{place}: found {quoted(heading.text)} over the first column; give times in"
                 " seconds, such as time_s, or delete the column and give the time step dt"
             )
         if math.isnan(heading.seconds):
             raise InputError(
-                f"{place}: found times in {shown(heading.unit)}; give them in s, ms or min, such as"
-                " time_s"
+                f"{place}: found times in {quoted(heading.unit)}; give them in s, ms or min, such"
+                " as time_s"
             )
         return heading.seconds
 
@@ -101,7 +101,7 @@ class Layout:
                 return unit_size(units)
             raise InputError(
                 f"{self.source.at(index)}: the comment states {' and '.join(sizes.values())}, the"
-                f" heading {shown(heading.text)} states {heading.unit}: which is it? Correct one"
+                f" heading {quoted(heading.text)} states {heading.unit}: which is it? Correct one"
                 " of them, or give the units"
             )
         return self.source.scale(heading.unit, self.heading_index)
@@ -125,7 +125,7 @@ def laid_out(source: Source) -> Layout:
     plain = ((index, line.replace("#", " ").strip()) for index, line in enumerate(lines[:first]))
     remarks = list(islice((row for row in plain if row[1]), _MAX_REMARKS))
     width = len(fields)
-    per_line = source.values_per_line or _told_across(lines, start, separator, remarks)
+    per_line = source.values_per_line or _stated_across(lines, start, separator, remarks)
     headings, place, misfit = list[Heading](), -1, ""
     if not per_line:
         headings, place, misfit = _headings(lines, start, separator, width, remarks)
@@ -148,25 +148,25 @@ def _check_first(source: Source, first: int, fields: Sequence[str]) -> None:
     for index, line in enumerate(source.lines[: first + 1]):
         if _FACTOR.fullmatch(plain := line.strip("# ")):
             raise InputError(
-                f"{source.at(index)}: found {shown(plain)}, a factor of the numbers below it;"
+                f"{source.at(index)}: found {quoted(plain)}, a factor of the numbers below it;"
                 " multiply them all by it, and delete the line"
             )
     words = [field for field in fields if field.strip(" *")]
     if any(is_heading(word) or _LETTERS.match(word) for word in words):
         problem = likely_text(source.lines) or (
-            f"found {shown(source.lines[first].strip())} where numbers are due, and no heading of a"
-            f" format that is read; {COLUMNS}, times any factor that the text states, and put #"
+            f"found {quoted(source.lines[first].strip())} where numbers are due, and no heading of"
+            f" a format that is read; {COLUMNS}, times any factor that the text states, and put #"
             " before every other line of text"
         )
         raise InputError(f"{source.at(first)}: {problem}")
     if any(map(_CLOCK.fullmatch, fields[:2])):
         raise InputError(
-            f"{source.at(first)}: found {shown(fields[0])}, a date or a time of day; give seconds"
+            f"{source.at(first)}: found {quoted(fields[0])}, a date or a time of day; give seconds"
             " from the start in the first column, such as time_s"
         )
 
 
-def _told_across(
+def _stated_across(
     lines: Sequence[str], start: int, separator: str | None, remarks: Sequence[Row]
 ) -> int:
     """Values in the first line, if a remark states as many samples as there are in all lines."""

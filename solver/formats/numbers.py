@@ -22,7 +22,7 @@ import numpy as np
 from solver.errors import InputError, raise_any
 from solver.formats.source import Source, Stated
 from solver.model import Floats
-from solver.records.record import BEYOND, is_finite_number, shown
+from solver.records.record import BEYOND, is_finite_number, quoted
 
 # ASCII alone: float would take the digits of other scripts as well.
 NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
@@ -141,7 +141,7 @@ def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
     if odd < usual:
         index, row = rows[digits.index(odd)]
         raise InputError(
-            f"{source.at(index)}: found {shown(row.strip())}, with fewer digits than all other"
+            f"{source.at(index)}: found {quoted(row.strip())}, with fewer digits than all other"
             " values; give the whole file"
         )
 
@@ -150,7 +150,7 @@ def check_last(source: Source, index: int, fields: Sequence[str]) -> None:
     """Refuse a last value with fewer digits than all others: a file cut within it, not before."""
     if is_cut_short(fields[-COMPARED:]):
         raise InputError(
-            f"{source.at(index)}: found {shown(fields[-1])} at the end, with fewer digits than all"
+            f"{source.at(index)}: found {quoted(fields[-1])} at the end, with fewer digits than all"
             " other values; give the whole file"
         )
 
@@ -186,11 +186,11 @@ def field_problem(field: str) -> str:
     if NUMBER.fullmatch(field) and is_finite_number(float(field)):
         return ""
     if field and not field.strip("*"):
-        return f"found {shown(field)}, a number too large for its columns; give a wider file"
+        return f"found {quoted(field)}, a number too large for its columns; give a wider file"
     if _GROUPED.fullmatch(field):
-        return f"found {shown(field)}; give a number without commas for thousands"
+        return f"found {quoted(field)}; give a number without commas for thousands"
     point = " with a decimal point" if DECIMAL_COMMA.match(field) else ""
-    return f"found {shown(field)}; give a number{point}"
+    return f"found {quoted(field)}; give a number{point}"
 
 
 def number_in(field: str) -> float:

@@ -41,7 +41,7 @@ def plain_lines(lines: Sequence[str]) -> list[str]:
     elif separator == "|":
         plain = [line.replace("|", ";") if _is_row(line) else line for line in plain]
     plain = _without_decimal_commas(_without_units_row(_without_last_marks(plain)))
-    return _with_count_and_step_told(plain)
+    return _with_count_and_step(plain)
 
 
 def _is_row(line: str) -> bool:
@@ -95,7 +95,7 @@ def _without_units_row(lines: list[str]) -> list[str]:
             *lines[rows[1] + 1 :]]  # fmt: skip
 
 
-def _with_count_and_step_told(lines: list[str]) -> list[str]:
+def _with_count_and_step(lines: list[str]) -> list[str]:
     """Make a remark of a first row that counts the times and values below it, as of DEEPSOIL."""
     start = first_row(lines)
     (index, content), (_, second) = [*islice(rows_of(lines, start), 2), (0, ""), (0, "")][:2]

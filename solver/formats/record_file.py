@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from solver.errors import InputError
-from solver.records.record import Record, shown
+from solver.records.record import Record, quoted
 from solver.suggestions import nearest
 
 _LISTED = 30
@@ -66,7 +66,7 @@ class MotionFile:
         # A name counts before a number: a channel may be called 2.
         chosen = (by_number | by_name).get(key)
         if chosen is None:
-            problem = f"found no channel {shown(name)}" if key else "found several channels"
+            problem = f"found no channel {quoted(name)}" if key else "found several channels"
             names = "; ".join(f"{i} {record.name}" for i, record in [*by_number.items()][:_LISTED])
             unlisted = len(by_number) - _LISTED
             names += f"; ... and {unlisted} more" if unlisted > 0 else ""

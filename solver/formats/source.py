@@ -15,7 +15,7 @@ from solver.bounds import SENSITIVITY
 from solver.errors import InputError, Problem, raise_any
 from solver.file_checks import check_length, read_file
 from solver.formats.likely_kinds import LOOKED_AT, likely_bytes, likely_text
-from solver.records.record import UNIT_CHOICES, is_finite_number, is_raw, shown, unit_size
+from solver.records.record import UNIT_CHOICES, is_finite_number, is_raw, quoted, unit_size
 from solver.suggestions import meant
 
 # Sequence number, then the quality of the data (SEED manual, fixed section of the header).
@@ -87,11 +87,11 @@ class Source:
         """Value [m/s2] of the unit stated in the file; the caller's, if any, must be equal."""
         size = unit_size(stated)
         if is_raw(stated):
-            return self.counts_scale(f"{self.at(index)}: found unit {shown(stated)}")
+            return self.counts_scale(f"{self.at(index)}: found unit {quoted(stated)}")
         if math.isnan(size):
             known = ", ".join(UNIT_CHOICES)
             raise InputError(
-                f"{self.at(index)}: found unit {shown(stated)}; give an acceleration in {known}"
+                f"{self.at(index)}: found unit {quoted(stated)}; give an acceleration in {known}"
             )
         if self.response:
             raise InputError(
@@ -174,13 +174,13 @@ def open_source(
     """
     name, problems = _name(path), []
     if not isinstance(units, str) or (units and units not in UNIT_CHOICES):
-        problems.append(f"{name}: unit is {shown(units)}; give one of {', '.join(UNIT_CHOICES)}")
+        problems.append(f"{name}: unit is {quoted(units)}; give one of {', '.join(UNIT_CHOICES)}")
     unknown = isinstance(dt_s, float) and math.isnan(dt_s)
     # NaN stands for a step that is not given, and only a float can be NaN.
     if not unknown and not (is_finite_number(dt_s) and dt_s > 0.0):
-        problems.append(f"{name}: time step dt is {shown(dt_s)}; give a number of seconds above 0")
+        problems.append(f"{name}: time step dt is {quoted(dt_s)}; give a number of seconds above 0")
     if type(values_per_line) is not int or values_per_line < 0:
-        problems.append(f"{name}: values per line is {shown(values_per_line)}; give 1, 2, ...")
+        problems.append(f"{name}: values per line is {quoted(values_per_line)}; give 1, 2, ...")
     if units and response:
         problems.append(f"{name}: units and a response are given; give one of them")
     raise_any(problems)

@@ -34,7 +34,7 @@ from solver.formats.record_file import MotionFile
 from solver.formats.source import Source
 from solver.formats.times import Even, is_even, sampled
 from solver.model import Floats
-from solver.records.record import BEYOND, HOLD, Record, shown
+from solver.records.record import BEYOND, HOLD, Record, quoted
 
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
 
@@ -57,7 +57,7 @@ def read(source: Source) -> MotionFile:
     _check_last(layout)
     if layout.headings and (named := phrases.of_a_spectrum(layout.headings)):
         raise InputError(
-            f"{source.at(layout.heading_index)}: found {', '.join(map(shown, named))}: this is a"
+            f"{source.at(layout.heading_index)}: found {', '.join(map(quoted, named))}: this is a"
             " spectrum, no record; give accelerations by time"
         )
     _check_remarks(layout, table)
@@ -65,7 +65,7 @@ def read(source: Source) -> MotionFile:
     ignored = _left_out(layout, table, range(int(timed), table.shape[1]))
     taken = [i for i in range(int(timed), table.shape[1]) if i not in ignored]
     if not taken:
-        ignored_names = (f"{shown(layout.headings[i].text)}, {why}" for i, why in ignored.items())
+        ignored_names = (f"{quoted(layout.headings[i].text)}, {why}" for i, why in ignored.items())
         raise InputError(
             f"{source.name}: found no component of acceleration beside {'; '.join(ignored_names)}:"
             " give one a heading such as acc_g"
@@ -88,7 +88,7 @@ def read(source: Source) -> MotionFile:
     if in_line := _pairs_in_line(layout, table):
         notes.append(f"each line has {in_line} pairs of time and value")
     for i, why in ignored.items():
-        notes.append(f"column {shown(layout.headings[i].text)} is ignored: it is {why}")
+        notes.append(f"column {quoted(layout.headings[i].text)} is ignored: it is {why}")
     if not source.is_ended:
         notes.append(
             "the last line has no line end: if the file was cut there, its last value or further"
@@ -233,7 +233,7 @@ def _check_last(layout: Layout) -> None:
     fields = [layout.fields(content)[-1].strip() for _, content in rows]
     if is_cut_short(fields):
         raise InputError(
-            f"{source.at(rows[-1][0])}: found {shown(fields[-1])} at the end, with fewer digits"
+            f"{source.at(rows[-1][0])}: found {quoted(fields[-1])} at the end, with fewer digits"
             " than the values before it and without a line end; give the whole file, or end its"
             " last line"
         )
@@ -250,7 +250,7 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
         place = layout.source.at(index)
         if is_positive and phrases.is_of_a_spectrum(line):
             raise InputError(
-                f"{place}: found {shown(line)} above values of which none is negative: this is a"
+                f"{place}: found {quoted(line)} above values of which none is negative: this is a"
                 " spectrum, no record; give accelerations by time"
             )
         if not is_said and (quantity := phrases.other_quantity(line)):
@@ -332,7 +332,7 @@ def _unit_of_times(layout: Layout, table: Floats) -> float:
     heading = layout.headings[0] if layout.headings else None
     step = float(np.median(np.diff(table[:, 0])))
     if not (heading and heading.unit) and step >= _LONGEST_STEP and len(table) > _FEW:
-        noun = shown(heading.text) if heading else "a first column"
+        noun = quoted(heading.text) if heading else "a first column"
         or_none = "" if heading else ", or delete the column if it counts the samples"
         raise InputError(
             f"{layout.source.at(max(layout.heading_index, 0))}: found {noun} with steps of"

@@ -95,7 +95,7 @@ def record_from_values(
     """
     _check_arguments(name, units, dt_s)
     if isinstance(values, str | bytes) or not isinstance(values, Sequence | np.ndarray):
-        raise InputError(f"{name} is {shown(values)}; give one row of real numbers")
+        raise InputError(f"{name} is {quoted(values)}; give one row of real numbers")
     if isinstance(values, np.ndarray):
         # Masked samples have values under their mask, and tolist makes whole numbers of dates.
         if values.dtype.kind not in "fiu" or np.ma.is_masked(values) or values.ndim != 1:
@@ -107,7 +107,7 @@ def record_from_values(
     if len(values) < 2:
         raise InputError(f"{name}: a column of {len(values)}; give at least 2 values")
     problems = [
-        f"{name}: value {i} is {shown(value)}; give a number"
+        f"{name}: value {i} is {quoted(value)}; give a number"
         for i, value in enumerate(values, start=1)
         if not is_finite_number(value)
     ]
@@ -257,7 +257,7 @@ def is_finite_number(value: object) -> bool:
     return False
 
 
-def shown(value: object) -> str:
+def quoted(value: object) -> str:
     """Return the value as a message shows it: quoted, and shortened if long."""
     text = repr(value)
     return text if len(text) <= 32 else f"{text[:28]}...{text[-1]}"

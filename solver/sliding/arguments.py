@@ -33,8 +33,8 @@ _WEAK = 0.05  # of what slips a block: weaker shaking is more probably in anothe
 _LARGEST = 1e120
 
 
-class GivenShaking(NamedTuple):
-    """How a roof is shaken, as a caller says it: nothing is checked."""
+class MotionArguments(NamedTuple):
+    """The motion of a roof as a caller gives it: nothing is checked."""
 
     ax_mps2: Given
     ay_mps2: ArrayLike | Record | None
@@ -45,7 +45,7 @@ class GivenShaking(NamedTuple):
 
 
 def scene_of(
-    shaking: GivenShaking,
+    shaking: MotionArguments,
     slope_rad: float,
     mu: float | Friction,
     g_mps2: float,
@@ -71,7 +71,7 @@ def scene_of(
     gravity = "a number of m/s2 above 0"
     g_mps2 = checked_number("g_mps2", g_mps2, gravity, _is_positive, problems)
     if not is_method(method):
-        problems.append(f"method is {shown(method)}; give one of {', '.join(methods())}")
+        problems.append(f"method is {shortened(method)}; give one of {', '.join(methods())}")
     elif records["ay_mps2"] is not None or not friction.is_constant:
         problems += _plane_faults(method, parameters)
     else:
@@ -108,7 +108,7 @@ def unit_size(values: Mapping[str, Given | None], units: str | None, problems: l
     if any(isinstance(value, Record | Motion) for value in values.values()):
         problems.append("units are given beside a record or a motion, which is in m/s2; omit them")
     if units not in UNITS:
-        problems.append(f"units is {shown(units)}; give one of {', '.join(UNITS)}")
+        problems.append(f"units is {shortened(units)}; give one of {', '.join(UNITS)}")
     return UNITS.get(units, 1.0)
 
 
@@ -250,7 +250,7 @@ def checked_number(
             number = math.nan
         if fits(number):
             return number
-    problems.append(f"{name} is {shown(value)}; give {accepted}")
+    problems.append(f"{name} is {shortened(value)}; give {accepted}")
     return math.nan
 
 
@@ -287,7 +287,7 @@ def is_zero_or_more(value: float) -> bool:
     return 0.0 <= value < math.inf
 
 
-def shown(value: object) -> str:
+def shortened(value: object) -> str:
     """Return the value given, shortened to one line."""
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
@@ -322,8 +322,8 @@ def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:
     problems: list[str] = []
     if method != "exact":
         problems.append(
-            f"method is {shown(method)}; two axes and velocity-dependent friction need 'exact': "
-            "omit ay_mps2 and give one coefficient, or omit the method"
+            f"method is {shortened(method)}; two axes and velocity-dependent friction need 'exact'"
+            ": omit ay_mps2 and give one coefficient, or omit the method"
         )
     low, high = two_axes.TOLERANCES
     accepted = f"a number from {low:g} to {high:g}"

@@ -14,7 +14,7 @@ from solver.errors import InputError
 from solver.model import STANDARD_GRAVITY_MPS2, Friction, Motion, Scene, SlideHistory, SlideResult
 from solver.records.record import Record
 from solver.sliding import model_selection, one_axis, two_axes
-from solver.sliding.arguments import Given, GivenShaking, method_of, scene_of, shown
+from solver.sliding.arguments import Given, MotionArguments, method_of, scene_of, shortened
 from solver.sliding.method import Method
 from solver.sliding.model_selection import DEFAULT, Settings, Solution
 from solver.sliding.quick import quick_slide
@@ -96,9 +96,9 @@ def slide(
         result = quick_slide(ax_mps2, slope_rad, mu, scale, g_mps2)
         if result is not None:
             return result
-    shaking = GivenShaking(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
+    shaking = MotionArguments(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
     run = scene_of(shaking, slope_rad, mu, g_mps2, method, parameters)
-    if _is_followed_in_plane(run):
+    if _is_in_two_axes(run):
         return two_axes.run(run, **parameters)
     return one_axis.run(run, method_of(method), **parameters)
 
@@ -149,9 +149,9 @@ def slide_history(
     0.4  0.0016  0.0000
     0.5  0.0016  0.0000
     """
-    shaking = GivenShaking(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
+    shaking = MotionArguments(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
     run = scene_of(shaking, slope_rad, mu, g_mps2, method, parameters)
-    if _is_followed_in_plane(run):
+    if _is_in_two_axes(run):
         return two_axes.run_history(run, **parameters)
     return one_axis.run_history(run, method_of(method), **parameters)
 
@@ -189,7 +189,7 @@ def scene(
     >>> scene([0.0, 4.0, -4.0, 0.0], 0.1, slope_rad=0.0, mu=0.2)
     Scene(1 component of 4 samples at 0.1 s, slope 0 deg, mu 0.2, scale 1)
     """
-    shaking = GivenShaking(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
+    shaking = MotionArguments(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
     return scene_of(shaking, slope_rad, mu, g_mps2)
 
 
@@ -240,14 +240,14 @@ def motion(
     >>> motion([0.0, 4.0, -4.0, 0.0], az_mps2=up, dt_s=0.1, id="pulse", scale=1.5)
     Motion: pulse, x and z, 4 samples of 0.1 s, scale 1.5
     """
-    shaking = GivenShaking(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
+    shaking = MotionArguments(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
     # A motion has no slope and no friction: zeros pass every check.
     checked = scene_of(shaking, 0.0, 0.0, STANDARD_GRAVITY_MPS2)
     x = ax_mps2
     if signs is None:
         signs = x.signs if isinstance(x, Motion) else (1, -1)
     if not signs or not {*signs} <= {1, -1}:
-        raise InputError(f"signs is {shown(signs)}; give +1, -1 or both")
+        raise InputError(f"signs is {shortened(signs)}; give +1, -1 or both")
     own_name = x.name if isinstance(x, Record) else "motion"
     return Motion(
         id=id or (x.id if isinstance(x, Motion) else own_name),
@@ -330,10 +330,10 @@ def _rechecked(scene: Scene) -> Scene:
     # It may be made by hand, without `scene`. The unit is said, so that nothing warns again of weak
     # shaking.
     ay, az = (a if np.size(a) else None for a in (scene.ay_mps2, scene.az_mps2))
-    shaking = GivenShaking(scene.ax_mps2, ay, az, scene.dt_s, scene.scale, "m/s2")
+    shaking = MotionArguments(scene.ax_mps2, ay, az, scene.dt_s, scene.scale, "m/s2")
     return scene_of(shaking, scene.slope_rad, scene.friction, scene.g_mps2)
 
 
-def _is_followed_in_plane(scene: Scene) -> bool:
-    """Whether the two-axes solver runs a scene: only it models velocity-dependent friction."""
+def _is_in_two_axes(scene: Scene) -> bool:
+    """Whether a scene is run in two axes: only there is friction by velocity modeled."""
     return bool(scene.ay_mps2.size) or not scene.friction.is_constant

@@ -29,7 +29,7 @@ from solver.sliding.arguments import (
     checked_number,
     checked_records,
     overflow,
-    shown,
+    shortened,
     unit_size,
     unpacked,
 )
@@ -143,7 +143,7 @@ def sweep(
     g = _above_zero("g_mps2", g_mps2, problems)
     components = _components(ax_mps2, ay_mps2, az_mps2, dt_s, units, problems)
     raise_any(problems)
-    (swept,) = _swept([components], axes, g, progress or _told_nobody)
+    (swept,) = _swept([components], axes, g, progress or _no_progress)
     return swept
 
 
@@ -192,9 +192,9 @@ def sweep_all(
         if isinstance(record, Record | Motion):
             components.append(_components(record, None, None, None, None, problems))
         else:
-            problems.append(f"record {n} is {shown(record)}; give records or motions")
+            problems.append(f"record {n} is {shortened(record)}; give records or motions")
     raise_any(problems)
-    return _swept(components, axes, g, progress or _told_nobody)
+    return _swept(components, axes, g, progress or _no_progress)
 
 
 class _Given(NamedTuple):
@@ -237,7 +237,7 @@ def _above_zero(name: str, value: float | None, problems: list[str]) -> float:
     return checked_number(name, value, "a number above 0", lambda v: 0.0 < v < math.inf, problems)
 
 
-def _told_nobody(share: float) -> None:
+def _no_progress(share: float) -> None:
     pass
 
 

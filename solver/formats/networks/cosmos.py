@@ -19,7 +19,7 @@ from solver.formats import channels
 from solver.formats.numbers import Block, each, fixed_values, header_values, layout_of, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
-from solver.records.record import Record, shown, unit_size
+from solver.records.record import Record, quoted, unit_size
 
 # Source: COSMOS Strong Motion Programs Board, COSMOS strong motion data format, version 1.20, 2001:
 # tables 1 (quantity) and 2 (units); real numbers 34 (step of the record [s]), 62 (step of the
@@ -179,12 +179,12 @@ def _scale(source: Source, part: _Part) -> float:
     coded = _UNITS.get(int(code), "") if code else ""
     if code and not coded:
         raise InputError(
-            f"{source.at(part.at)}: found unit {shown(name)}, code {int(code)}; give a file of"
+            f"{source.at(part.at)}: found unit {quoted(name)}, code {int(code)}; give a file of"
             " acceleration in g or cm/s2"
         )
     if coded and name and unit_size(name) != unit_size(coded):
         raise InputError(
-            f"{source.at(part.at)}: found unit {shown(name)} with code {int(code)}, which is"
+            f"{source.at(part.at)}: found unit {quoted(name)} with code {int(code)}, which is"
             f" {coded}; give a file in which they agree"
         )
     return source.scale(name or coded, part.at)

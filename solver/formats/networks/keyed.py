@@ -30,7 +30,7 @@ from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats
-from solver.records.record import Record, shown, unit_size
+from solver.records.record import Record, quoted, unit_size
 
 # Source: INGV, DYNA 1.0 and 1.2, the heading of the Engineering Strong-Motion database, esm-db.eu,
 # and of ITACA, whose older files name the component `COMPONENT`; isesd.hi.is, Datafile Format (the
@@ -191,7 +191,7 @@ def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats
     if text:
         number = text.strip("/").partition("/")[0]
         if not number.isdecimal():
-            raise InputError(f"{source.at(index)}: found {shown(text)}; give the number of values")
+            raise InputError(f"{source.at(index)}: found {quoted(text)}; give the number of values")
         count = width * int(number)
     block = Block(first=heading.first, stop=stop, count=count, promised=index)
     return np.ascontiguousarray(free_values(source, block).reshape(-1, width).T)

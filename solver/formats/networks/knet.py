@@ -17,7 +17,7 @@ from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats
-from solver.records.record import Record, shown
+from solver.records.record import Record, quoted
 
 # Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and
 # the KiK-net notes there (channels 1 to 3 in the borehole, 4 to 6 at the surface; the stated peak
@@ -74,7 +74,7 @@ def _component(source: Source, index: int, head: str, dt_s: float, values: Float
     """Return a column of the CSV as a record by its heading, a name with its unit."""
     unit = _IN_UNIT.fullmatch(head)
     if not unit:
-        raise InputError(f"{source.at(index)}: found {shown(head)}; give a column as N-S(gal)")
+        raise InputError(f"{source.at(index)}: found {quoted(head)}; give a column as N-S(gal)")
     name, a_mps2 = _KIK_NET.get(unit[1], unit[1]), values * source.scale(unit[2], index)
     borehole = (_BOREHOLE,) if name.endswith("1") else ()
     return Record(name=name, dt_s=dt_s, a_mps2=a_mps2, notes=(*offset_notes(a_mps2), *borehole))
@@ -130,7 +130,7 @@ def _number(source: Source, name: str) -> Stated:
     match = _LEADING.match(text)
     stated = printed(match[0] if match else "", index)
     if not 0.0 < stated.value < 1e6:
-        raise InputError(f"{source.at(index)}: found {shown(text)}; give a number above 0")
+        raise InputError(f"{source.at(index)}: found {quoted(text)}; give a number above 0")
     return stated
 
 
@@ -141,6 +141,6 @@ def _scale(source: Source) -> float:
     over, under = (printed(match[i], index).value for i in (1, 3)) if match else (0.0, 0.0)
     if not match or not (over > 0.0 and under > 0.0):
         raise InputError(
-            f"{source.at(index)}: found {shown(text)}; give a scale as 3920(gal)/6182761"
+            f"{source.at(index)}: found {quoted(text)}; give a scale as 3920(gal)/6182761"
         )
     return source.scale(match[2], index) * over / under

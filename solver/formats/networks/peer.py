@@ -19,7 +19,7 @@ from solver.formats.channels import motion_file
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source
-from solver.records.record import Record, shown
+from solver.records.record import Record, quoted
 
 # Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there
 # is no written definition); eqsig.loader (label, then count and step, then a value a line); the
@@ -56,8 +56,8 @@ def read(source: Source) -> MotionFile:
     counted = _counted(stated) or _BARE.fullmatch(stated.strip())
     if not counted:
         raise InputError(
-            f"{source.at(number)}: found {shown(stated.strip())}; give the count and the step as in"
-            " NPTS=  4000, DT=   .0100 SEC"
+            f"{source.at(number)}: found {quoted(stated.strip())}; give the count and the step as"
+            " in NPTS=  4000, DT=   .0100 SEC"
         )
     units: list[tuple[str, int]] = []
     for index, line in enumerate(source.lines[: number + 1]):

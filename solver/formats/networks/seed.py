@@ -24,7 +24,7 @@ from solver.formats.record_file import MotionFile
 from solver.formats.source import MAX_BYTES, Source, Stated, waveform_format
 from solver.formats.times import round_step
 from solver.model import Floats
-from solver.records.record import Record, shown, unit_size
+from solver.records.record import Record, quoted, unit_size
 
 # Source: SEED reference manual, version 2.4 (data records); SAC manual, data file format (IDEP: 6
 # displacement, 7 velocity, 8 acceleration, whose unit by the manual, nm/s2, is often not kept);
@@ -164,6 +164,6 @@ def _sensitivity(source: Source, inventory: Any, trace: Any) -> tuple[float, flo
     if math.isnan(size) or not is_digital or not SENSITIVITY.has(value / size):
         raise InputError(
             f"{path.name}: the sensitivity of {trace.id} is {value:g} {sensitivity.output_units}"
-            f" per {shown(units)}; give that of an accelerometer, {SENSITIVITY.words}"
+            f" per {quoted(units)}; give that of an accelerometer, {SENSITIVITY.words}"
         )
     return value / size, at_hz
