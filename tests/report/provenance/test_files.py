@@ -13,7 +13,7 @@ from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.workbooks import type_into
 from report import making
-from report.manual.manual_files import files as record_reading
+from report.motions import record_reading
 from report.motions.prepare import prepare
 from report.project.read.documents import Document
 from report.project.read.read import read
