@@ -109,7 +109,7 @@ def make(
     if assessment.project.options.package_edition is PackageEdition.LETTER and sheet_counts[0] > 2:
         raise InputError(
             f"Options: edition is letter, of two sheets; what is entered takes {sheet_counts[0]}: "
-            "choose plan check"
+            "choose plan check, or Letter or A4 for the roof plan"
         )
 
     progress(Step("writing the result tables"))

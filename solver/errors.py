@@ -1,7 +1,7 @@
 """The two kinds of error: what the user can fix, all of it at once, and a defect.
 
-`InputError("dt_s is -0.1; give a number of seconds above 0")` has one problem, whose remedy is
-`give a number of seconds above 0`.
+`InputError("dt_s is -0.1; use a number of seconds above 0")` has one problem, whose remedy is
+`use a number of seconds above 0`.
 """
 
 from __future__ import annotations

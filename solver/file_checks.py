@@ -58,7 +58,7 @@ def read_file(path: Path, limit: int, name: str = "", *, too_large: str = "") ->
         ) from error
     if not stat.S_ISREG(status.st_mode):
         kind = "a folder" if stat.S_ISDIR(status.st_mode) else "a pipe or a device"
-        raise InputError(f"{begin}is {kind}; give a file")
+        raise InputError(f"{begin}is {kind}; use a file")
     if max(status.st_size, len(content)) > limit:
         raise InputError(f"{begin}larger than {limit / 1e6:g} MB{too_large and f'; {too_large}'}")
     return content

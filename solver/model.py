@@ -42,9 +42,9 @@ class Status(StrEnum):
 _SENTENCES = {
     Status.OK: "analyzed to the end of the record, where the block is at rest",
     Status.SLIDING_AT_END: "still sliding at the end of the record: the displacement is not final",
-    Status.UPLIFT: "the normal force falls below zero: outside the model, no displacement is given",
-    Status.DIVERGED: "the method did not converge or became unstable: no displacement is given",
-    Status.STEP_LIMIT: "the run exceeded the limit on time steps: no displacement is given",
+    Status.UPLIFT: "the normal force falls below zero: outside the model, no displacement reported",
+    Status.DIVERGED: "the method did not converge or became unstable: no displacement reported",
+    Status.STEP_LIMIT: "the run exceeded the limit on time steps: no displacement reported",
 }
 
 

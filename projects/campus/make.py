@@ -63,7 +63,7 @@ def project() -> ProjectInput:
             "clearances": [
                 *_clearances(south, "SOUTH"),
                 *_clearances(north, "NORTH"),
-                clearance("A10", "RTU-4", "across", 1.6),
+                clearance("A10", "RTU-4", "cross-slope", 1.6),
             ],
             "motions": school.motions[:COUNT],
             # The letter beside this file is on these arrays, and an example as that of the school.
@@ -91,12 +91,12 @@ def _arrays(names: Sequence[Sequence[str]], downslope_deg: float, percent: float
 def _clearances(names: Sequence[Sequence[str]], parapet: str) -> Iterator[Row]:
     """Yield those in rows and columns of a slope, to its parapet and to the units on the ridge."""
     for row in names:
-        yield from (clearance(*two, "across", LANE_M) for two in pairwise(row))
+        yield from (clearance(*two, "cross-slope", LANE_M) for two in pairwise(row))
     for column in zip(*names, strict=True):
-        yield clearance(column[0], parapet, "down", SETBACK_M)
-        yield from (clearance(*two, "up", LANE_M) for two in pairwise(column))
+        yield clearance(column[0], parapet, "downslope", SETBACK_M)
+        yield from (clearance(*two, "upslope", LANE_M) for two in pairwise(column))
     for number, name in enumerate(names[-1][::2], start=1):
-        yield clearance(name, f"RTU-{number}", "up", 2.4)
+        yield clearance(name, f"RTU-{number}", "upslope", 2.4)
 
 
 if __name__ == "__main__":

@@ -83,13 +83,13 @@ def project() -> ProjectInput:
                 _object("WEST", "edge with parapet", 36, (-1, 0), (0, 100)),
             ],
             "clearances": [
-                _clearance("A1", "A2", "down", 4),
+                _clearance("A1", "A2", "downslope", 4),
                 # Too narrow: the prescriptive displacement is 21.6 in.
-                _clearance("A2", "RTU-1", "across", 1),
-                _clearance("A2", "SOUTH", "down", 10),
-                _clearance("A1", "NORTH", "up", 10),
-                _clearance("A1", "WEST", "across", 10),
-                _clearance("A2", "WEST", "across", 10),
+                _clearance("A2", "RTU-1", "cross-slope", 1),
+                _clearance("A2", "SOUTH", "downslope", 10),
+                _clearance("A1", "NORTH", "upslope", 10),
+                _clearance("A1", "WEST", "cross-slope", 10),
+                _clearance("A2", "WEST", "cross-slope", 10),
             ],
             "motions": [motion(f"RM{n}", "x", SOURCE) for n in range(1, COUNT + 1)],
         }

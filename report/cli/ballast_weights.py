@@ -35,7 +35,7 @@ def fill_ballast(
         if not blocks:
             problem = "no ballast block of the map is inside an array on the plan"
             raise InputError(
-                f"{problem}; give --units of the map, or x and y from the plan's origin"
+                f"{problem}; use --units of the map, or x and y from the plan's origin"
             )
         weights = {name: load.blocks * block_n for name, load in blocks.items()}
         cell_values: dict[str, float | None] = {**weights}

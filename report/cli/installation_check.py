@@ -57,7 +57,11 @@ def _checks() -> Iterator[tuple[str, Callable[[], str | None], str]]:
         yield name, partial(library, name), locked if sys.platform == "win32" else debian
     again = f"remove .venv and run {launcher} again; if it stays, report it"
     yield "test run", _test_run, again
-    yield "test page", _test_page, "install what is missing above, or the program again"
+    yield (
+        "test page",
+        _test_page,
+        "install what is missing above, or reinstall the program",
+    )
 
 
 def _python_and_system() -> str:

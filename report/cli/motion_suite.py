@@ -98,5 +98,5 @@ def _targets(
         table = read_target(target)
         return table_targets(table, s_ds_g=spectrum["s_ds_g"], tail=spectrum["tail"]), []
     if not {"s_ds_g", "code"} <= options.keys():
-        raise InputError("no target; give --sds and --code, or --target")
+        raise InputError("no target; use --sds and --code, or --target")
     return ac156_targets(**spectrum), []

@@ -40,7 +40,7 @@ def slide_block(
     """Run a block under the records of up to three components, and print its results."""
     # Checked here, as the limit is slow to import where options are made.
     if mu > MOST_MU:
-        raise click.BadParameter(f"it is {mu:g}; give 0 to {MOST_MU:g}.", param_hint="'--mu'")
+        raise click.BadParameter(f"it is {mu:g}; enter 0 to {MOST_MU:g}.", param_hint="'--mu'")
     with input_errors(Path(record)):
         step_s = math.nan if dt_s is None else dt_s
         x, y, z = _read((record, transverse, vertical), units or "", step_s)
@@ -109,7 +109,7 @@ def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record
         if (len(record.a_mps2), record.dt_s) != (len(first.a_mps2), first.dt_s):
             problems.append(
                 f"{record.name}: has {len(record.a_mps2)} samples at {record.dt_s:g} s, but "
-                f"{first.name} has {len(first.a_mps2)} at {first.dt_s:g} s; give components of "
+                f"{first.name} has {len(first.a_mps2)} at {first.dt_s:g} s; use components of "
                 "equal length and time step"
             )
     if problems:
@@ -122,6 +122,6 @@ def _scale_to(ppa_g: float, record: Record) -> float:
     peak_mps2 = float(abs(record.a_mps2).max())
     if peak_mps2 == 0.0:
         raise InputError(
-            f"{record.name}: is all zeros and cannot be scaled to a PPA; give another record"
+            f"{record.name}: is all zeros and cannot be scaled to a PPA; use another record"
         )
     return ppa_g * STANDARD_GRAVITY_MPS2 / peak_mps2

@@ -47,7 +47,7 @@ class Number(click.ParamType[float]):
         is_limit = self._is_open and number in (self._low, self._high)
         if is_limit or not (math.isfinite(number) and self._low <= number <= self._high):
             unit = f" {self._unit}" if self._unit else ""
-            self.fail(f"it is {number:g}{unit}; give {self._accepted(unit)}.", param, ctx)
+            self.fail(f"it is {number:g}{unit}; enter {self._accepted(unit)}.", param, ctx)
         return number
 
     def _accepted(self, unit: str) -> str:

@@ -48,7 +48,7 @@ def prove(
         data = read_package(file)
         # Before the work, and a dangling link as well.
         if os.path.lexists(again):
-            raise InputError(f"{again}: already exists; give another --out, or move the file")
+            raise InputError(f"{again}: already exists; use another --out, or move the file")
         with Progress((*STEPS, COMPARING), quiet=quiet) as progress:
             proof, made = _proof(file, data, records, progress)
         if proof.is_to_be_read:

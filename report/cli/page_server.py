@@ -113,7 +113,7 @@ def _token(file: Path) -> str:
         token = read_file(file, MAX_TOKEN).decode(errors="replace").strip()
     if len(token) < MIN_TOKEN or not _TOKEN.fullmatch(token):
         accepted = f"{MIN_TOKEN} or more letters, digits, '-', '_', '.' and '~', on one line"
-        click.echo(f"{file}: has no token; give {accepted}.", err=True)
+        click.echo(f"{file}: has no token; enter {accepted}.", err=True)
         sys.exit(INPUT_ERROR)
     return token
 
@@ -129,9 +129,9 @@ def listen(host: str, port: int) -> socket.socket:
         return listening
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
-            message = f"Port {port} of {host} is in use: end what uses it, or give another --port."
+            message = f"Port {port} of {host} is in use: end what uses it, or use another --port."
         else:
-            message = f"{host}, port {port}: cannot listen there; give another --port or --host."
+            message = f"{host}, port {port}: cannot listen there; use another --port or --host."
         click.echo(message, err=True)
         sys.exit(INPUT_ERROR)
 

@@ -172,7 +172,7 @@ def _turned(drawing: RoofDrawing, rotate_deg: float) -> tuple[RoofDrawing, list[
     # North is given from +x, counterclockwise.
     degrees = 90.0 - drawing.north_deg if math.isnan(rotate_deg) else rotate_deg
     if math.isnan(degrees):
-        raise InputError("states no north (GEODATA); give --rotate in degrees")
+        raise InputError("states no north (GEODATA); use --rotate in degrees")
     lines = []
     if degrees:
         drawing = drawing.turned(degrees)

@@ -50,7 +50,7 @@ def convert_record(file: Path, out: Path, *, channel: str, factor: float, **read
         motion_file = _read(file, reading)
         record = motion_file.channel(channel)
         if os.path.lexists(out):  # a dangling link as well
-            raise InputError(f"{out}: already exists; give another name, or move the file")
+            raise InputError(f"{out}: already exists; use another name, or move the file")
         scaled = replace(record, a_mps2=factor * record.a_mps2)
         write_whole(out, record_csv(scaled, within=_TOLERANCE).encode())
     for note in motion_file.notes:

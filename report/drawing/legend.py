@@ -16,7 +16,7 @@ from report.text.units import Quantity, round_below
 _MEANINGS: dict[Look, str] = {
     Layer.ARRAY: "array, downslope direction",
     Layer.OBJECT: "fixed object",
-    Layer.UNLIKE: "unlike array",
+    Layer.UNLIKE: "array of different construction",
     Layer.PARAPET: "roof edge with parapet",
     Layer.EDGE: "roof edge without parapet",
     Layer.BARE_EDGE: "roof edge, not an object",

@@ -69,9 +69,9 @@ def read_map(path: Path, unit_m: float) -> Any:
         unit = "".join(units)
         if name in ("x", "y") and unit and LENGTHS.get(unit_named(unit)) != unit_m:
             text = f"line 1: the heading is '{cut(heading)}'"
-            raise InputError(f"{text}, and --units says another unit; give that of x and y")
+            raise InputError(f"{text}, and --units says another unit; enter that of x and y")
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
-        raise InputError(f"line 1: not one heading {', '.join(missing)}; give x, y and blocks")
+        raise InputError(f"line 1: not one heading {', '.join(missing)}; enter x, y and blocks")
     if len(rows) > MAX_ROWS:
         raise InputError(f"{len(rows):,} lines, more than {MAX_ROWS:,}; add up neighboring blocks")
     rows_read, wrong = [], []
@@ -80,9 +80,9 @@ def read_map(path: Path, unit_m: float) -> Any:
         x, y, blocks = (number_in(with_point(text, mark)) for text in cells)
         for name, text, value in zip(COLUMNS, cells, (x, y, blocks), strict=True):
             if not math.isfinite(value):
-                wrong.append(f"line {line}: {name} is '{cut(text)}'; give a number")
+                wrong.append(f"line {line}: {name} is '{cut(text)}'; enter a number")
             elif name == "blocks" and not (value.is_integer() and 0.0 <= value <= MAX_BLOCKS):
-                remedy = f"give a whole number from 0 to {MAX_BLOCKS:,}"
+                remedy = f"enter a whole number from 0 to {MAX_BLOCKS:,}"
                 wrong.append(f"line {line}: blocks is {value:g}; {remedy}")
         rows_read.append((line, x * unit_m, y * unit_m, blocks))
     if wrong:

@@ -40,9 +40,9 @@ DAMAGED = "not a DXF drawing, or damaged; open it in CAD and save it again"
 _OTHER_FILES = (
     (rb"AC10", "a DWG drawing; save it as DXF (R12 to R2018)"),
     (rb"AutoCAD Binary DXF", "a binary DXF; save it as DXF in text"),
-    (rb"%PDF", "a PDF; give the DXF that it was plotted from"),
-    (rb"PK\x03\x04", "a zip; unpack it and give the DXF in it"),
-    (rb"\x89PNG|\xff\xd8\xff|II\*\x00|MM\x00\*|GIF8|BM", "a picture; give the drawing as DXF"),
+    (rb"%PDF", "a PDF; use the DXF that it was plotted from"),
+    (rb"PK\x03\x04", "a zip; unpack it and use the DXF in it"),
+    (rb"\x89PNG|\xff\xd8\xff|II\*\x00|MM\x00\*|GIF8|BM", "a picture; use the drawing as DXF"),
     (rb"ISO-10303-21", "an IFC or STEP model; export its roof plan as DXF"),
     (rb"\xd0\xcf\x11\xe0", "a model of Revit, or an old Office file; export its roof plan as DXF"),
     (rb"(?:<[?!][^>]*>\s*){0,9}<svg", "an SVG; save it as DXF"),
@@ -60,13 +60,13 @@ def other_unit(code: int) -> str:
     stated, unit = OTHER_UNITS[code]
     is_same = stated == f"US survey {'feet' if unit == 'ft' else 'inches'}"  # within 2 in a million
     condition = "" if is_same else ", if that is what it is drawn in, or scale it in CAD"
-    return f"states {stated}; give --units {unit}{condition}"
+    return f"states {stated}; use --units {unit}{condition}"
 
 
 def _read(path: Path) -> bytes:
     """Return a drawing; refuse what is no DXF in text, and what is too large to load."""
     if not path.exists():
-        raise InputError(f"no such file; {meant(path) or 'give a DXF drawing'}")
+        raise InputError(f"no such file; {meant(path) or 'use a DXF drawing'}")
     data = read_file(path, MAX_BYTES, too_large="save the roof plan alone")
     begin = data[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
     for pattern, advice in _OTHER_FILES:

@@ -82,7 +82,7 @@ def _refuse(plan: RoofPlan, drawn: RoofDrawing) -> NoReturn:
             raise InputError(f"{text}; move them there in CAD")
         text = "the drawing has no closed lines; draw roof, arrays and objects as such in CAD"
         raise InputError([text, *unread(plan)])
-    raise InputError(["nothing to fill in: give the layers on the Layers worksheet", *unread(plan)])
+    raise InputError(["nothing to fill in: list the layers on the Layers worksheet", *unread(plan)])
 
 
 def unread(plan: RoofPlan) -> Iterator[str]:
@@ -140,7 +140,7 @@ def _check_outlines(change: WorkbookChange, plan: RoofPlan, replace: bool) -> No
     polygons = [name for name, shape in places.items() if isinstance(shape, Polygon)]
     if polygons:
         names = ", ".join(polygons)
-        missing = f"Outlines: the sheet is missing, which {names} in the drawing need"
+        missing = f"Outlines: the worksheet is missing, which {names} in the drawing need"
         raise InputError(f"{missing}. {_MOVE}, then read the drawing into that")
 
 

@@ -84,9 +84,7 @@ def joined(
         for array, inside in _arrays([outlines[k] for k in indices], gap_m, turned_deg):
             arrays.append(array)
             if len(arrays) > MAX_ROWS:
-                raise InputError(
-                    f"modules make up more than {MAX_ROWS} arrays; give a larger --gap"
-                )
+                raise InputError(f"modules make up more than {MAX_ROWS} arrays; use a larger --gap")
             gone |= {indices[k]: counts for k, counts in inside.items()}
     for kind in _KINDS:
         # Those of layouts that draw the outline of an array around its modules.

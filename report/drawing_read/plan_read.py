@@ -163,8 +163,8 @@ def unit_asked(would_do: Sequence[str], stated: str) -> str:
     """Return a question of the unit of a drawing: those that would do, or that which it states."""
     alternatives = f"{' or '.join(would_do)}, or " if would_do else ""
     return (
-        f"give the unit of the drawing (--units, or Unit on the page): {alternatives}{stated} if it"
-        " is so, as it states"
+        f"enter the unit of the drawing (--units, or Unit on the page): {alternatives}{stated} if"
+        " it is so, as it states"
     )
 
 

@@ -130,8 +130,8 @@ def read_components(
 
 # What would do where a cell contradicts its file.
 _LEFT_TO_THE_FILE = {
-    "units": f"give the units of the file, or '{AccelUnit.FROM_FILE}'",
-    "dt_s": "give the time step of the file, or leave it blank",
+    "units": f"enter the units of the file, or '{AccelUnit.FROM_FILE}'",
+    "dt_s": "enter the time step of the file, or leave it blank",
 }
 
 
@@ -197,16 +197,16 @@ def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
         text = (
             f"horizontal record lasts {duration_s:.4g} s as run ({len(horizontal.a_mps2)} samples)"
         )
-        yield Finding.error(place, text, f"give a record of {SHORTEST_S:g} s or more")
+        yield Finding.error(place, text, f"use a record of {SHORTEST_S:g} s or more")
     for field, record in records.items():
         if has_gravity(record.a_mps2):
             mean_g = float(record.a_mps2.mean()) / G_MPS2
             text = f"{LABELS[field]} record has a mean of {mean_g:.3g} g: gravity is in it"
-            remedy = "give it without, or remove the mean by the column Baseline"
+            remedy = "use it without, or remove the mean by the column Baseline"
             yield Finding.error(Place("motions", index, field), text, remedy)
     if not any(records[field].a_mps2.any() for field in HORIZONTAL if field in records):
         which = "and transverse records are" if "transverse" in records else "record is"
-        yield Finding.error(place, f"horizontal {which} all zeros", "give a record of the shaking")
+        yield Finding.error(place, f"horizontal {which} all zeros", "use a record of the shaking")
 
 
 def _processed(

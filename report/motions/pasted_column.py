@@ -41,8 +41,8 @@ def heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
     ]
     if not spots:
         raise InputError(
-            f"sheet '{title}' has no heading '{header}' in its first {HEADING_ROWS} rows; write it"
-            " above the column"
+            f"worksheet '{title}' has no heading '{header}' in its first {HEADING_ROWS} rows; write"
+            " it above the column"
         )
     if len(spots) > 1:
         places = " and ".join(position.address for position in spots[:2])
@@ -62,7 +62,7 @@ def read_column(
     if extent.last_row > heading.row + MAX_SAMPLES:
         raise InputError(
             f"{heading.sheet}!{extent.row_cell} contains data more than {MAX_SAMPLES:,} rows"
-            " below the heading; clear it, or give the record as a file"
+            " below the heading; clear it, or use the record as a file"
         )
     _check_units(book, heading, units)
     below = cells_below(book, heading)
@@ -72,7 +72,7 @@ def read_column(
     parsed = _parsed_heading(book, heading)
     if parsed.is_magnitude and min(values, default=-1.0) >= 0.0:
         raise InputError(
-            f"{heading.address} is '{parsed.text}', the magnitude of a vector; give a component"
+            f"{heading.address} is '{parsed.text}', the magnitude of a vector; use a component"
         )
     times = _check_times(book, heading, len(values), dt_s)
     # 1 gal = 1 cm/s2; the solver's table has one name for each unit.
@@ -90,7 +90,7 @@ def _check_units(book: OpenBook, heading: CellPosition, units: str) -> None:
     parsed = _parsed_heading(book, heading)
     if parsed.kind in (Kind.TIME, Kind.OTHER) or is_spectral(parsed):
         raise InputError(
-            f"{heading.address} is '{parsed.text}', which is no acceleration by time; give the"
+            f"{heading.address} is '{parsed.text}', which is no acceleration by time; enter the"
             " column of one"
         )
     if parsed.kind is Kind.ACCELERATION and not math.isclose(
@@ -122,8 +122,8 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
     unit_s = _parsed_heading(book, time_heading).seconds
     if math.isnan(unit_s):
         raise InputError(
-            f"{time_heading.address} is '{_parsed_heading(book, time_heading).text}'; give times in"
-            " s, ms or min"
+            f"{time_heading.address} is '{_parsed_heading(book, time_heading).text}'; enter times"
+            " in s, ms or min"
         )
     cells = cells_below(book, time_heading)[:count]
     t_s = unit_s * np.array(_numbers(cells, _parsed_heading(book, time_heading).unit or "s"))
@@ -142,7 +142,7 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
         i = int(np.abs(steps - usual).argmax())
         raise InputError(
             f"{source.at(i + 1)} is {t_s[i + 1]:.6g} s, {steps[i]:.3g} s after the row above it,"
-            f" but the typical step is {usual:.3g} s; fill in the missing rows, or give the record"
+            f" but the typical step is {usual:.3g} s; fill in the missing rows, or use the record"
             " as a file, which is resampled"
         )
     raise InputError(

@@ -43,7 +43,7 @@ class Shaking:
 
 _TOO_MUCH = (
     f"the records to here have more than {MAX_TOGETHER / 1e6:.0f} MB together",
-    "give fewer motions, or convert the records (roofslip motion convert --help)",
+    "use fewer motions, or convert the records (roofslip motion convert --help)",
 )
 _NOT_READ = ("the records from here on are not read", "correct those before it first")
 
@@ -116,7 +116,7 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
                 Place("links", index, "stiffness_n_per_m"),
                 f"link stiffness is {_stiffness_text(links.stiffness_n_per_m)}, too stiff to "
                 f"integrate in {MOST_STEPS:.0e} steps",
-                f"give {_stiffness_text(0.9 * largest)} or less (a stiffer row moves as one rigid "
+                f"enter {_stiffness_text(0.9 * largest)} or less (a stiffer row moves as one rigid "
                 "block with the mean coefficient)",
             )
 

@@ -80,8 +80,8 @@ def _step(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
     if longest.dt_s > MOST_STEP_S * (1.0 + 1e-9):
         text = (
             f"{longest.name} has a time step of {longest.dt_s:g} s, and so no content above"
-            f" {0.5 / longest.dt_s:.3g} Hz; {MOST_STEP_S:g} s or less is usual: correct the time"
-            " step, or give another record"
+            f" {0.5 / longest.dt_s:.3g} Hz; {MOST_STEP_S:g} s or less is typical: correct the time"
+            " step, or use another record"
         )
         yield warning(f"step {longest.motion_id}", _place(index, longest), text)
 
@@ -91,7 +91,7 @@ def _duration(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
     if _seconds(longest) > MOST_DURATION_S:
         text = (
             f"{longest.name} lasts {_seconds(longest):.0f} s at a time step of {longest.dt_s:g} s;"
-            f" {MOST_DURATION_S:.0f} s or less is usual: correct the time step, or trim the record"
+            f" {MOST_DURATION_S:.0f} s or less is typical: correct the time step, or trim it"
         )
         yield warning(f"duration {longest.motion_id}", _place(index, longest), text)
 
@@ -102,7 +102,7 @@ def _unequal(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
     if cut > MOST_UNEQUAL * longest.npts:
         text = (
             f"{longest.name} has {longest.npts} samples, and {cut} of them are trimmed, to the"
-            " shortest component; give components of one recording"
+            " shortest component; use components of one recording"
         )
         yield warning(f"length {longest.motion_id}", _place(index, longest), text)
 
@@ -115,7 +115,7 @@ def _spikes(index: int, file: RecordFile) -> Iterator[Finding]:
     text = (
         f"{file.name}: {which}, at {first * file.dt_s:.6g} s, {'reach' if further else 'is'}"
         f" {file.peak_g:.4g} g, and no other is more than {file.others_g:.4g} g; correct the file,"
-        " or give another record"
+        " or use another record"
     )
     yield warning(f"spike {file.motion_id} {file.component}", _place(index, file), text)
 

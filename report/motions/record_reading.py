@@ -118,14 +118,14 @@ def find_heading(book: OpenBook, name: str) -> CellPosition | None:
     # A file may have an exclamation mark in its name.
     if (book.path.parent / name.partition(BAR)[0].strip().replace("\\", "/")).is_file():
         return None
-    raise InputError(f"'{name}' names no sheet of this workbook; give Sheet!Header, or a file")
+    raise InputError(f"'{name}' names no worksheet of this workbook; enter Sheet!Header, or a file")
 
 
 def _read_column(
     book: OpenBook, name: str, heading: CellPosition, units: str, dt_s: float | None
 ) -> Component:
     missing = [("time step", dt_s is None), ("units", not units)]
-    if problems := [f"'{name}' is a pasted column; give its {w}" for w, is_so in missing if is_so]:
+    if problems := [f"'{name}' is a pasted column; enter its {w}" for w, is_so in missing if is_so]:
         raise InputError(problems)
     record, cells = read_column(book, name, heading, units, float(dt_s or 0.0))
     data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()

@@ -59,7 +59,7 @@ def repeated(
                 f" record at {where(earlier.place)} (equal samples, apart from scale and sign):"
                 f" {record.row['id']} is {earlier.row['id']} again"
             )
-            yield Finding.error(record.place, text, "give each motion once")
+            yield Finding.error(record.place, text, "enter each motion once")
         for key, record in records:
             seen.setdefault(key, []).append(record)
 

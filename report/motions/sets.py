@@ -162,7 +162,7 @@ def sets_of(
         if times[name] == 1 and len(name) <= MOST_NAME:
             sets[name] = group
         else:
-            remedy = f"give them one of at most {MOST_NAME} letters that no other set has"
+            remedy = f"use a name of at most {MOST_NAME} characters that no other set has"
             unclear.append((_listed(group), f"their name is {name}; {remedy}"))
     return sets, unclear
 
@@ -214,7 +214,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
     # With the sign wrong, uplift and contact would change places.
     elif group[-1].family == _DOWN:
         yield (
-            f"{group[-1].name} is positive downward: give it with factor -1, as motion convert"
+            f"{group[-1].name} is positive downward: enter it with factor -1, as motion convert"
             " --factor -1 writes it"
         )
     elif level[0].family != level[1].family or (level[1].degrees - level[0].degrees) % 180 != 90:

@@ -54,7 +54,7 @@ def unpack(zipped: Path, folder: Path) -> None:
     are. The folder may hold a part where one is refused.
     """
     room = _Room(folder)
-    _unpack(io.BytesIO(read_file(zipped, MOST_SENT, too_large="give fewer records")), room)
+    _unpack(io.BytesIO(read_file(zipped, MOST_SENT, too_large="use fewer records")), room)
     # Some networks send a zip of the zips of each station.
     for inner in [path for path in room.paths if path.suffix.lower() == ".zip"]:
         below = inner.relative_to(folder).with_suffix("").as_posix()

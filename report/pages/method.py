@@ -27,17 +27,10 @@ from report.text.grouping import grouped_by
 from report.text.names import named
 from report.text.units import NO_BREAK, Quantity, no_less, number, ratio
 from report.typeset.equations import fraction
-from solver.rules.provisions import SEPARATION_KEYS, Basis, Neighbor, PrescriptiveBasis
+from solver.rules.provisions import SEPARATION_KEYS, Basis, PrescriptiveBasis
 
 # Peaks in the equation of their mean; those after them are dots.
 _MOST_PEAKS = 12
-_KINDS = {
-    Neighbor.LIKE: "like array",
-    Neighbor.FIXED: "fixed object",
-    Neighbor.UNLIKE: "unlike array",
-    Neighbor.PARAPET: "edge with qualifying parapet",
-    Neighbor.EDGE: "edge without qualifying parapet",
-}
 
 
 def below(package: PackageData) -> tuple[tuple[str, str], ...]:
@@ -276,6 +269,6 @@ def _separation(package: PackageData, gap: ClearanceCheck) -> str:
     at_least = f", not less than {minimum}" if minimum else ""
     factor = number(rules[key], 2) + package.marks.of(key)
     return (
-        f"{' to '.join(gap.between)}, {_KINDS[gap.neighbor]}: {factor}{importance} × {design}"
+        f"{' to '.join(gap.between)}, {gap.neighbor.value}: {factor}{importance} × {design}"
         f"{at_least} ="
     )

@@ -1,4 +1,4 @@
-"""The edition letter: a letter with the table by array, then the plan and the conditions.
+"""The edition letter: a letter with the table by array and the conditions, then the plan.
 
 For a permit set: one to six arrays by the prescriptive displacement, on two sheets. What it has no
 room for is refused by `report.project.check.faults`.
@@ -15,7 +15,7 @@ from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.friction import mu_words
 from report.assessment.design.separation import importance_factor
 from report.document.columns import centered, plain, required, text, words
-from report.document.tables import Column, Table, headed, listed, stamp
+from report.document.tables import Column, Table, headed, listed, part_of, stamp
 from report.drawing.sheet import unit_format
 from report.pages import cover
 from report.pages.checks import verdict_sentence
@@ -43,7 +43,7 @@ def letter(package: PackageData) -> Mapping[str, object]:
         **cover.page(package),
         "kind": "letter for a permit",
         "verdict": stamp(done.verdict, done.verdict.value),
-        "verdict_sentence": verdict_sentence(done, "on the next sheet"),
+        "verdict_sentence": verdict_sentence(done, "below"),
         "site": data.site,
         "s_ds": number(data.site.s_ds, 3),
         "i_e": number(data.site.i_e, 2),
@@ -57,6 +57,7 @@ def letter(package: PackageData) -> Mapping[str, object]:
         "report": friction_report(data.friction_tests),
         "fingerprint": package.fingerprint,
         "workbook": done.source.path.name,
+        "open_checks": _open_checks(package) if done.open else None,
     }
 
 
@@ -87,8 +88,8 @@ def _separation(package: PackageData, head: str, neighbor: Neighbor) -> Column:
     return required(head, 1.2), separation_m, lambda _: mark
 
 
-def plan(package: PackageData) -> Mapping[str, object]:
-    """Return the second sheet: the schedule beside the plan, and what must be met."""
+def _open_checks(package: PackageData) -> Table:
+    """Return what must be met, and who acts."""
     done, data = package.assessment, package.data
     rows = []
     for check in done.open:
@@ -98,12 +99,16 @@ def plan(package: PackageData) -> Mapping[str, object]:
         cells = (title, found, required_by, check.actor.value)
         rows.append((*map(with_symbols, cells), stamp(check.verdict)))
     heads = ("Open", 2.0), ("Found", 2.4), ("Required", 3.0), ("Who acts", 0.9), ("", 0.8, "center")
+    return headed(*heads, rows=rows, kind="compact")
+
+
+def plan(package: PackageData) -> Mapping[str, object]:
+    """Return the second sheet: the plan, with the schedule below it or, on large paper, beside."""
     printed = package.printed_plan
+    fmt = replace(unit_format(package.assessment), systems=1, none="none")
     return {
         "sheet": printed.size.sheet,
         "width_in": number(printed.size.wide, 2),
         "unnamed": ", ".join(printed.unnamed),
-        "schedule": plan_schedule(package, replace(unit_format(done), systems=1, none="none")),
-        "open_checks": headed(*heads, rows=rows, kind="compact"),
-        "n_open": len(rows),
+        "schedule": part_of(plan_schedule(package, fmt), 0, is_narrow=bool(printed.size.sheet)),
     }

@@ -65,4 +65,4 @@ def _notes(package: PackageData) -> Iterator[str]:
         for note in file.notes:
             yield f"{name}: {note}"
         for cell in file.unseen:
-            yield f"{name}: {cell.words} on the sheet {cell.sheet}: {cell.kind}"
+            yield f"{name}: {cell.words} on the {cell.sheet} worksheet: {cell.kind}"

@@ -50,7 +50,7 @@ def read_package(path: Path) -> bytes:
     Raises `InputError` if there is no such file, or it is larger than any package.
     """
     if not path.exists():
-        raise InputError(f"no such file; {meant(path) or 'give a calc-package.pdf'}")
+        raise InputError(f"no such file; {meant(path) or 'use a calc-package.pdf'}")
     return read_file(path, MAX_FILE, too_large="no package is")
 
 

@@ -76,7 +76,7 @@ def name_beside(book: OpenBook, path: Path) -> str:
     """
     home = book.path.parent.resolve()
     if not path.resolve().is_relative_to(home):
-        raise InputError(f"{path}: is outside the workbook's folder; give one within {home}")
+        raise InputError(f"{path}: is outside the workbook's folder; enter one within {home}")
     name = path.resolve().relative_to(home).as_posix()
     # A cell has the sheet of a workbook after "!", and a channel after the bar.
     if any(mark in name for mark in ("!", BAR)):

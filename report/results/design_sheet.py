@@ -17,7 +17,7 @@ from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.routes import Route
 from report.assessment.design.rule_set import MEANING, OVERRIDDEN
 from report.assessment.design.verdict import Verdict, worst
-from report.project.model.choices import Direction, YesNo
+from report.project.model.choices import Direction, Statistic, YesNo
 from report.results.list_sheets import RUNS
 from report.results.sheet_columns import (
     TOP,
@@ -170,7 +170,7 @@ _HAS_MEAN = "{n_motions}>={inputs[analysis_mean_motions]}"
 _OR_LARGEST = f"IF({{n_motions}}>={{inputs[analysis_min_motions]}},{_LARGEST},{_FEW})"
 _OR_PLAIN = f"IF({{n_motions}}>={{inputs[plain_mean_motions]}},{_PLAIN},{_FEW})"
 _STATISTIC = (
-    f'=IF({{inputs[statistic]}}="rule set",IF({_HAS_MEAN},{_MEAN},{_OR_LARGEST}),'
+    f'=IF({{inputs[statistic]}}="{Statistic.RULE_SET}",IF({_HAS_MEAN},{_MEAN},{_OR_LARGEST}),'
     f"IF({{inputs[statistic]}}={_MEAN},IF({_HAS_MEAN},{_MEAN},{_FEW}),"
     f"IF({{inputs[statistic]}}={_LARGEST},{_OR_LARGEST},{_OR_PLAIN})))"
 )  # fmt: skip
@@ -258,8 +258,8 @@ DESIGN = SheetLayout(
 
 # What the sheet follows from, with motions and without.
 _FROM = {
-    True: "From the sheets Peaks, any direction, and Inputs.",
-    False: "From the Inputs worksheet; no motions are given, and the displacement is prescriptive.",
+    True: "From the Peaks, any direction, and Inputs worksheets.",
+    False: "From the Inputs worksheet. No motions are entered; the displacement is prescriptive.",
 }
 
 

@@ -36,7 +36,7 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
 # Version 0.3 wrote 2, without `checks`.
 READ_VERSIONS = (2, SCHEMA_VERSION)
 
-GIVE = "give the results.json of a previous revision"
+GIVE = "use the results.json of a previous revision"
 AGAIN = "write it again with `report` of this version, from the workbook of that revision"
 
 # Largest file that is read [B], and most objects of one that is compared.

@@ -52,7 +52,7 @@ _OF_OTHERS = re.compile(
 _MEASURE = {False: "PGA [g]", True: "Sa(1 s) [g]"}
 _RATE = "annual rate [1/year] (1 / T of a return period T, -ln(1 - p) / n of p in n years)"
 
-_TWO = "give intensity and annual rate in two columns, or the CSV of the USGS hazard tool"
+_TWO = "enter intensity and annual rate in two columns, or the CSV of the USGS hazard tool"
 
 
 def hazard_curves(sheet: StudySheet) -> tuple[HazardCurve, ...]:
@@ -125,13 +125,13 @@ def _wrong_headings(row: Sequence[str], is_spectral: bool) -> Iterator[str]:
         text = ", ".join(row)
         named = [name for name, pattern in _NAMES.items() if pattern.search(text)]
         if is_of_another(text) or _OF_OTHERS.search(text) or named == [not is_spectral]:
-            yield f"has the heading '{text[:60]}'; give {measure} and {_RATE}, or delete it"
+            yield f"has the heading '{text[:60]}'; enter {measure} and {_RATE}, or delete it"
         return
     for heading, known, accepted in zip(
         row, (_OF_INTENSITY[is_spectral], _OF_RATE), (measure, _RATE), strict=True
     ):
         if not set(known.split()).issuperset(_WORD.findall(heading.casefold())):
-            yield f"has the heading '{heading[:60]}'; give {accepted}"
+            yield f"has the heading '{heading[:60]}'; enter {accepted}"
 
 
 def _saved_curves(rows: Sequence[list[str]]) -> Iterator[Sequence[list[str]]]:
@@ -158,7 +158,7 @@ def _checked(points: Sequence[tuple[float, float]]) -> tuple[Floats, Floats]:
     known = int(np.count_nonzero(rate))
     if known < 2:
         raise InputError(
-            f"the curve has {numbered(known, 'point')} with a rate above 0; give two or more"
+            f"the curve has {numbered(known, 'point')} with a rate above 0; enter two or more"
         )
     fits = np.array([INTENSITY.has(value) for value in x])
     fits[:known] &= [ANNUAL_RATE.has(value) for value in rate[:known]]
@@ -169,7 +169,7 @@ def _checked(points: Sequence[tuple[float, float]]) -> tuple[Floats, Floats]:
     if not fits.all():
         index = int(np.flatnonzero(~fits)[0])
         raise InputError(
-            f"point {index + 1} of the curve is {x[index]:g} at {rate[index]:g} a year; give"
+            f"point {index + 1} of the curve is {x[index]:g} at {rate[index]:g} a year; enter"
             f" intensities that increase, {INTENSITY.words}, and rates that decrease,"
             f" {ANNUAL_RATE.words} but for the last ones, which may be 0"
         )

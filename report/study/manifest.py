@@ -134,7 +134,7 @@ def check_earlier(folder: Path, manifest: Mapping[str, Any]) -> int:
     manifest is damaged.
     """
     path = folder.parent / NAME
-    away = f"move the folder {folder} away or delete it, or give another one with --out"
+    away = f"move the folder {folder} away or delete it, or enter another one with --out"
     if not path.exists():
         return 0
     try:

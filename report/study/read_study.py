@@ -32,7 +32,7 @@ from solver.errors import InputError
 from solver.file_writing import write_whole
 
 HOW = (
-    f"give numbers that increase, at most {MOST_VALUES}, with a blank after each comma, such as"
+    f"enter numbers that increase, at most {MOST_VALUES}, with a blank after each comma, such as"
     " 0, 1, 2.5; or 0 to 7 by 0.5"
 )
 
@@ -48,7 +48,7 @@ def read_study(path: Path) -> StudySheet:
     book = open_book(path)
     if is_absent(book, STUDY):
         raise InputError(
-            f"{book.path}: has no sheet {STUDY.sheet}; write a study workbook with: "
+            f"{book.path}: has no worksheet {STUDY.sheet}; write a study workbook with: "
             "roofslip new DIR --study"
         )
     sheet = read_as(StudyInput, STUDY_SECTIONS, book, _faults)
@@ -74,16 +74,16 @@ def _faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
             if not numbers:
                 yield _at(field, f"{name} are '{text[:60]}'", HOW)
             elif wrong := [value for value in numbers if not fits(value)]:
-                yield _at(field, f"{name} have {wrong[0]:g}", f"give numbers {allowed}")
+                yield _at(field, f"{name} have {wrong[0]:g}", f"enter numbers {allowed}")
     # Each mat has a coefficient, by which the curves can be drawn as well.
     if study.get("mus") == "" and not inputs["mats"]:
-        yield _at("mus", "friction coefficients are missing and there is no mat", "give either")
+        yield _at("mus", "friction coefficients are missing and there is no mat", "enter either")
     yield from _about_study(study, inputs)
     yield from _about_motions(study, inputs)
     for section in ("mats", "study_arrays", "motions", "buildings"):
         for place, name, first in repeated(column(inputs, (section,), "id"), str.casefold):
             yield Finding.error(
-                place, f"ID is '{name}', already used at {where(first)}", "give a unique ID"
+                place, f"ID is '{name}', already used at {where(first)}", "enter a unique ID"
             )
     for row, mat in enumerate(inputs["mats"]):
         yield from _about_mat(row, mat)
@@ -114,10 +114,10 @@ def _about_study(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
         source, beta = study["record_source"], study["record_beta"]
         if beta is not None and not source:
             text = "the record-to-record dispersion needs its source"
-            yield _at("record_source", text, "give it")
+            yield _at("record_source", text, "enter it")
         if source and beta is None:
-            text = "a source is given without the dispersion"
-            yield _at("record_beta", text, "give it, or clear both")
+            text = "a source is entered without the dispersion"
+            yield _at("record_beta", text, "enter it, or clear both")
 
 
 def _about_motions(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
@@ -131,7 +131,7 @@ def _about_motions(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
         text = "ground motions need at least one building"
         yield Finding.error(Place("buildings"), text, "fill in a row")
     if "recorded_at" in study and not is_ground and inputs["buildings"]:
-        text = "a building is given, but the motions are roof motions"
+        text = "a building is entered, but the motions are roof motions"
         accepted = "clear the row, or set Recorded at to ground"
         yield Finding.error(Place("buildings", 0, "id"), text, accepted)
 
@@ -140,12 +140,12 @@ def _about_mat(row: int, mat: InputRow) -> Iterator[Finding]:
     text = mat.get("tested") or ""
     series = tested(text)
     if text and (len(series) < 3 or not all(0.0 < v <= 2.0 for v in series)):
-        accepted = "give three or more numbers above 0, to 2, with a blank after each comma"
+        accepted = "enter three or more numbers above 0, to 2, with a blank after each comma"
         place = Place("mats", row, "tested")
         yield Finding.error(place, f"tested values are '{text[:60]}'", accepted)
     if "mu" in mat and mat["mu"] is None and not text:
         missing = "friction coefficient and tested values are missing"
-        yield Finding.error(Place("mats", row, "mu"), missing, "give one")
+        yield Finding.error(Place("mats", row, "mu"), missing, "enter one")
 
 
 def _about_arrays(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
@@ -155,7 +155,7 @@ def _about_arrays(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
             yield Finding.error(place, f"mat '{mat}' is not on the Mats worksheet", "add it")
     if study.get("site_intensity") and not inputs["study_arrays"]:
         accepted = "fill in a row of the Arrays worksheet"
-        yield _at("site_intensity", "is given, but no array is", accepted)
+        yield _at("site_intensity", "is entered, but no array is", accepted)
     # Combinations are of tested values, and an intensity has none.
     is_combined = study.get("sampling") is Sampling.ALL_COMBINATIONS
     if is_combined and study.get("site_intensity") and study.get("intensity_beta"):
@@ -177,7 +177,7 @@ def _about_hazard(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
     has_points = bool(inputs["hazard_points"])
     if not (hazard.get("file") or has_points):
         if alone := [name for name, value in hazard.items() if value not in ("", None)]:
-            yield at(alone[0], "is given without a hazard curve", "give a curve, or clear it")
+            yield at(alone[0], "is entered without a hazard curve", "enter a curve, or clear it")
         return
     if hazard.get("file") and has_points:
         yield at("file", "is named and the table of the curve has rows", "keep one")
@@ -193,7 +193,7 @@ def _about_hazard(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
         if is_needed and not has_factor and factor in hazard:
             yield at(factor, "is missing", f"{_NEEDED[where]}; there is no default")
         elif has_factor and not is_needed:
-            yield at(factor, "is given", f"clear it: {_NEEDLESS[where]}")
+            yield at(factor, "is entered", f"clear it: {_NEEDLESS[where]}")
         if has_factor and not has_basis and basis in hazard:
             yield at(basis, "is missing", "the factor needs it")
     measures = (Intensity.PGA, Intensity.SA1) if is_ground else (Intensity.PPA, Intensity.SA1)
@@ -201,7 +201,7 @@ def _about_hazard(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
         accepted = " or ".join(measure.letters for measure in measures)
         yield _at("intensity", "has no hazard curve", f"choose {accepted}, or clear the hazard")
     if not inputs["study_arrays"]:
-        yield at("file", "is given, but no array is", "fill in a row of the Arrays worksheet")
+        yield at("file", "is entered, but no array is", "fill in a row of the Arrays worksheet")
 
 
 _NEEDED = {

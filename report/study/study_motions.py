@@ -100,7 +100,7 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     folder = (top / name).resolve()
     if not folder.is_relative_to(top.resolve()) or not folder.is_dir():
         sheet.refuse(
-            [Finding.error(_FOLDER, f"'{name}' is no folder beside this workbook", "give one")]
+            [Finding.error(_FOLDER, f"'{name}' is no folder beside this workbook", "enter one")]
         )
     groups: dict[str, dict[str, str]] = {}
     for path in sorted(folder.iterdir()):
@@ -140,7 +140,7 @@ def _unlike(
     if samples > MOST_SAMPLES:
         place = Place("motions") if study_input.motions else _FOLDER
         yield Finding.error(
-            place, f"the records have {samples:,} samples in all", f"give at most {MOST_SAMPLES:,}"
+            place, f"the records have {samples:,} samples in all", f"enter at most {MOST_SAMPLES:,}"
         )
 
 

@@ -162,10 +162,10 @@ def _predicted(sheet: StudySheet) -> Mapping[str, Predictive]:
 def _too_many(campaign: Campaign) -> Iterator[Finding]:
     place = Place("study", 0, "intensities")
     if len(campaign.cases) > MOST_CASES:
-        accepted = f"give at most {MOST_CASES:,}"
+        accepted = f"enter at most {MOST_CASES:,}"
         yield Finding.error(place, f"make {len(campaign.cases):,} cases", accepted)
     elif campaign.rows > MOST_RUNS:
-        yield Finding.error(place, f"make {campaign.rows:,} runs", f"give at most {MOST_RUNS:,}")
+        yield Finding.error(place, f"make {campaign.rows:,} runs", f"enter at most {MOST_RUNS:,}")
 
 
 def _array(

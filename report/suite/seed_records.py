@@ -67,7 +67,7 @@ def _group(name: str, files: Sequence[MotionFile]) -> tuple[Record, ...]:
             group.append(record if is_named_by_file else replace(record, name=name_of_both))
     if len(group) > 3:
         raise InputError(
-            f"{name}: has {len(group)} channels; give one, two or three for each motion "
+            f"{name}: has {len(group)} channels; enter one, two or three for each motion "
             "(to extract a channel: roofslip motion convert --help)"
         )
     # The generator takes x, y and z in this order.

@@ -108,8 +108,10 @@ def _title(book: OpenBook, sheet: str) -> str:
             return title
     name, listed = book.path.name, ", ".join(f"'{title}'" for title in titles[:MAX_TOLD])
     if not sheet:
-        raise InputError(f"{name}: has {len(titles)} sheets; give {name}!Sheet, one of {listed}")
-    raise InputError(f"{name}: has no sheet '{sheet}'; give one of {listed}")
+        raise InputError(
+            f"{name}: has {len(titles)} worksheets; enter {name}!Sheet, one of {listed}"
+        )
+    raise InputError(f"{name}: has no worksheet '{sheet}'; enter one of {listed}")
 
 
 def _sheet_rows(book: OpenBook, title: str) -> _Rows:
@@ -117,7 +119,7 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
     if extent.last_row > MAX_ROWS + HEADING_ROWS:
         raise InputError(
             f"{title}!{extent.row_cell}: contains data beyond row {MAX_ROWS + HEADING_ROWS}; "
-            f"give at most {MAX_ROWS} rows"
+            f"enter at most {MAX_ROWS} rows"
         )
     columns = range(1, min(extent.last_column, MAX_COLUMNS) + 1)
     return [
@@ -128,7 +130,7 @@ def _sheet_rows(book: OpenBook, title: str) -> _Rows:
 
 def _text_rows(path: Path) -> _Rows:
     if not path.is_file():
-        remedy = f"give BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
+        remedy = f"use BOOK.xlsx!Sheet or a CSV file with {_WANTED}"
         raise InputError(f"{path}: no such file; {meant(path) or remedy}")
     # Neither units nor a step: they are those of a record.
     lines = open_source(path, units="", dt_s=math.nan).lines
@@ -136,9 +138,9 @@ def _text_rows(path: Path) -> _Rows:
         mark = separator(lines)
         rows = list(csv.reader(lines, delimiter=mark, strict=True))
     except csv.Error as error:
-        raise InputError(f"{path.name}: not CSV; give {_WANTED}") from error
+        raise InputError(f"{path.name}: not CSV; use {_WANTED}") from error
     if len(rows) > MAX_ROWS + HEADING_ROWS:
-        raise InputError(f"{path.name}: has {len(rows)} lines; give at most {MAX_ROWS} rows")
+        raise InputError(f"{path.name}: has {len(rows)} lines; enter at most {MAX_ROWS} rows")
     return [
         [
             _Field(sheet=path.name, cell=str(k), value=with_point(field.strip(), mark))
@@ -175,7 +177,7 @@ def _headings(source: str, rows: _Rows) -> tuple[int, Mapping[str, int]]:
             above = [cell for cell in chain.from_iterable(rows[:top]) if not cell.is_blank]
             return top, _columns(above, row, headings)
     raise InputError(
-        f"{source}: no row of headings in the first {HEADING_ROWS} rows; give {_WANTED}"
+        f"{source}: no row of headings in the first {HEADING_ROWS} rows; enter {_WANTED}"
     )
 
 
@@ -194,14 +196,14 @@ def _columns(
     problems, columns = [], {}
     for cell in above:
         if is_of_another(cell.shown):
-            remedy = "give accelerations in g, or delete a line that is not of the columns"
+            remedy = "use accelerations in g, or delete a line that is not of the columns"
             problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", remedy, cell.address))
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:
             continue
         due = _KINDS[kind][1].unit
         if unit not in ("", due.casefold()):
-            remedy = f"give {kind} [{due}]"
+            remedy = f"enter {kind} [{due}]"
             problems.append(Problem(f"is '{cell.shown.strip()}'", remedy, cell.address))
         if kind in columns:
             problems.append(Problem(f"a second {kind} column", "delete one", cell.address))
@@ -218,10 +220,10 @@ def _value(row: Sequence[Found], column: int, kind: str, problems: list[Problem]
     """Return a number greater than 0; NaN, with a problem added, if there is none."""
     if column >= len(row) or row[column].is_blank:
         place = row[min(column, len(row) - 1)].address
-        problems.append(Problem(f"{kind} is blank", "give a number greater than 0", place))
+        problems.append(Problem(f"{kind} is blank", "enter a number greater than 0", place))
         return float("nan")
     bounds = _KINDS[kind][1]
-    cell, remedy = row[column], f"give a number greater than 0 [{bounds.unit}]"
+    cell, remedy = row[column], f"enter a number greater than 0 [{bounds.unit}]"
     try:
         check_saved(cell)
         value = number(cell, remedy, bounds.unit)
@@ -230,7 +232,7 @@ def _value(row: Sequence[Found], column: int, kind: str, problems: list[Problem]
         return float("nan")
     if not bounds.has(value):
         problems.append(
-            Problem(f"{kind} is {value:g}", f"give a number from {bounds.words}", cell.address)
+            Problem(f"{kind} is {value:g}", f"enter a number from {bounds.words}", cell.address)
         )
     return value
 
@@ -242,19 +244,19 @@ def _frequencies(values: Mapping[str, Floats]) -> Floats:
 def _range_problems(source: str, freq_hz: Floats) -> Iterator[Problem]:
     if len(freq_hz) < 2:
         count = "1 row" if len(freq_hz) else "no rows"
-        yield Problem(f"has {count} of numbers", "give at least 2", source)
+        yield Problem(f"has {count} of numbers", "enter at least 2", source)
         return
     # Two ordinates at one frequency: interpolated, the slope between them has no end.
     apart = np.diff(np.sort(freq_hz)) > 1e-9 * np.sort(freq_hz)[1:]
     if not apart.all():
         repeated_hz = float(np.sort(freq_hz)[1:][~apart][0])
         fault = f"{repeated_hz:g} Hz ({1 / repeated_hz:g} s) appears twice"
-        yield Problem(fault, "give each frequency once", source)
+        yield Problem(fault, "enter each frequency once", source)
     low, high = BAND_HZ[0] * (1.0 + _ROUNDED), BAND_HZ[1] * (1.0 - _ROUNDED)
     if freq_hz.min() > low or freq_hz.max() < high:
         band = f"{BAND_HZ[0]:g} to {BAND_HZ[1]:g} Hz (periods from 0.03 to 3.33 s) or more"
         fault = f"covers {freq_hz.min():.4g} to {freq_hz.max():.4g} Hz"
-        yield Problem(fault, f"give {band}", source)
+        yield Problem(fault, f"enter {band}", source)
 
 
 def _sorted(source: str, values: Mapping[str, Floats]) -> TargetTable:

@@ -57,13 +57,13 @@ def ac156_targets(
     """
     problems = _s_ds_problems(s_ds_g)
     if not 0.0 <= z_over_h <= 1.0:
-        problems.append(f"z/h is {z_over_h:g}; give a number from 0 (ground) to 1 (roof)")
+        problems.append(f"z/h is {z_over_h:g}; enter a number from 0 (ground) to 1 (roof)")
     if problems:
         raise InputError(problems)
     named = {name: key for key, name in CODES.items()}
     code = named.get(choice_in(code, named), code.casefold())
     if code not in CODES:
-        raise InputError(f"--code is {code!r}; give one of {', '.join(CODES)}")
+        raise InputError(f"--code is {code!r}; enter one of {', '.join(CODES)}")
     rules = RULE_SETS[CODES[code]]
     across = ac156_horizontal(
         EDITIONS[edition or rules.edition], s_ds_g=s_ds_g, z_over_h=z_over_h, tail=tail
@@ -104,7 +104,7 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
     else:
         if math.isnan(s_ds_g):
             raise InputError(
-                f"{table.source}: has no vertical column; add vertical [g], or give --sds for the "
+                f"{table.source}: has no vertical column; add vertical [g], or use --sds for the "
                 "AC156 vertical spectrum"
             )
         problems = _s_ds_problems(s_ds_g)
@@ -126,7 +126,7 @@ def table_targets(table: TargetTable, *, s_ds_g: float, tail: Tail) -> SuiteTarg
 def _s_ds_problems(s_ds_g: float) -> list[str]:
     if _MIN_S_DS_G <= s_ds_g <= _MAX_S_DS_G:
         return []
-    return [f"S_DS is {s_ds_g:g} g; give {_MIN_S_DS_G:g} to {_MAX_S_DS_G:g} g"]
+    return [f"S_DS is {s_ds_g:g} g; enter {_MIN_S_DS_G:g} to {_MAX_S_DS_G:g} g"]
 
 
 def _check_level(name: str, target: Target) -> None:
@@ -134,7 +134,7 @@ def _check_level(name: str, target: Target) -> None:
     peak_g = float(max(target[1]))
     if peak_g < _MIN_PEAK_G:
         raise InputError(
-            f"the {name} target reaches {peak_g:.3g} g; give one of {_MIN_PEAK_G:g} g or more:"
+            f"the {name} target reaches {peak_g:.3g} g; enter one of {_MIN_PEAK_G:g} g or more:"
             " records are written to 0.00001 g"
         )
 
@@ -177,7 +177,7 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
     if sheet.inputs["spectrum"]:
         cells = sheet.where(Place("spectrum"))
         problems.append(
-            f"{cells}: a target spectrum is given, not that of AC156; add --target to the command"
+            f"{cells}: a target spectrum is entered, not that of AC156; add --target to the command"
             " motion suite, with that spectrum as CSV"
         )
     if problems:

@@ -70,7 +70,7 @@ def check(opened: OpenProject, values: Values) -> None:
             span = slider["least"], slider["greatest"]
             if not _is_number(value) or not span[0] <= float(value) <= span[1]:
                 of = f" of {target}" * bool(has_target)
-                wanted = f"give a number from {span[0]:g} to {span[1]:g}"
+                wanted = f"enter a number from {span[0]:g} to {span[1]:g}"
                 why = "".join(f" ({text})" for text in slider["stops"].values())
                 wrong.append(f"{slider['label']}{of} is {cut(str(value))}; {wanted}{why}")
         elif name not in choices:

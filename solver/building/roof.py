@@ -273,10 +273,10 @@ def _checked(ground_mps2: ArrayLike, dt_s: float, share: float) -> Floats:
     ground = np.asarray(ground_mps2, dtype=np.float64)
     problems = []
     if ground.ndim != 1 or ground.size < 2 or not np.isfinite(ground).all():
-        problems.append("ground motion: give one column of two or more finite numbers")
+        problems.append("ground motion: use one column of two or more finite numbers")
     if not (math.isfinite(dt_s) and dt_s > 0.0):
-        problems.append(f"time step dt is {dt_s!r}; give a number of seconds above 0")
+        problems.append(f"time step dt is {dt_s!r}; use a number of seconds above 0")
     if not 0.0 <= share < 1.0:
-        problems.append(f"limit on neglected modes is {share!r}; give 0 to below 1")
+        problems.append(f"limit on neglected modes is {share!r}; use 0 to below 1")
     raise_any(problems)
     return ground

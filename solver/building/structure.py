@@ -81,7 +81,7 @@ def story_modes(alpha0: float, stories: int) -> Modes:
     _check_alpha0(alpha0)
     if not 1 <= stories <= MOST_STORIES:
         raise InputError(
-            f"stories: found {stories}; give a whole number from 1 to {MOST_STORIES}, 0 for a beam"
+            f"stories: found {stories}; use a whole number from 1 to {MOST_STORIES}, 0 for a beam"
         )
     # Equal floor masses: eigenvectors of K itself, of length 1, so Gamma = sum of phi.
     squares, shapes = np.linalg.eigh(floor_stiffness(alpha0, stories))
@@ -109,7 +109,7 @@ def floor_stiffness(alpha0: float, stories: int) -> Floats:
 def _check_alpha0(alpha0: float) -> None:
     if not (0.0 <= alpha0 <= MOST_ALPHA0 or alpha0 == math.inf):
         raise InputError(
-            f"lateral stiffness ratio: found {alpha0}; give 0 to {MOST_ALPHA0:g}, or infinity"
+            f"lateral stiffness ratio: found {alpha0}; use 0 to {MOST_ALPHA0:g}, or infinity"
         )
 
 
@@ -259,7 +259,7 @@ def building_of_modes(
     _check_periods(periods_s, damping)
     counts = {len(periods_s), len(damping), len(roof_factors)}
     if len(counts) > 1 or not np.isfinite(roof_factors).all():
-        raise InputError("modes: give a period, a damping and a roof factor for each")
+        raise InputError("modes: use a period, a damping and a roof factor for each")
     total = sum(roof_factors)
     return Building(
         periods_s=read_only(np.array(periods_s)),
@@ -287,16 +287,16 @@ def _words(lowest: Floats, damping: Sequence[float], alpha0: float, stories: int
 def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None:
     problems = []
     if not len(periods_s) or not len(damping):
-        problems.append("building: give at least one period and one damping")
+        problems.append("building: use at least one period and one damping")
     for period in periods_s:
         if not 0.0 < period <= MOST_PERIOD_S:
-            problems.append(f"period: found {period} s; give above 0 to {MOST_PERIOD_S:g} s")
+            problems.append(f"period: found {period} s; use above 0 to {MOST_PERIOD_S:g} s")
     if any(after > before for before, after in pairwise(periods_s)):
-        problems.append("periods: give the longest first")
+        problems.append("periods: use the longest first")
     for value in damping:
         if not LEAST_DAMPING <= value <= MOST_DAMPING:
             problems.append(
-                f"damping: found {value}; give a fraction of critical from {LEAST_DAMPING:g} to "
+                f"damping: found {value}; use a fraction of critical from {LEAST_DAMPING:g} to "
                 f"{MOST_DAMPING:g}"
             )
     raise_any(problems)

@@ -58,7 +58,7 @@ def check_components(source: Source, parts: Sequence[range]) -> None:
     if len(parts) != COMPONENTS:
         raise InputError(
             f"{source.at(parts[-1].start)}: found the heading of component {len(parts)}, the last"
-            f" one, where the format has {COMPONENTS} components; give the whole file"
+            f" one, where the format has {COMPONENTS} components; use the whole file"
         )
 
 
@@ -77,7 +77,7 @@ def motion_file(
     """
     if not channels:
         raise InputError(
-            f"{source.name}: found no acceleration in this {form} file; give a file of acceleration"
+            f"{source.name}: found no acceleration in this {form} file; use a file of acceleration"
         )
     check_number(source, len(channels))
     alone = len(channels) == 1
@@ -87,7 +87,7 @@ def motion_file(
         if len(channel.a_mps2) < 2:
             count = len(channel.a_mps2)
             samples = "1 sample" if count == 1 else f"{count} samples"
-            raise InputError(f"{source.name}: found {samples}; give at least 2")
+            raise InputError(f"{source.name}: found {samples}; enter at least 2")
         _check_size(source, channel)
         a_mps2 = own(channel.a_mps2)
         # A constant is no shaking with gravity in it.
@@ -154,7 +154,7 @@ def _check_size(source: Source, channel: Record) -> None:
     check_peak(source.name, channel.a_mps2)
     if not TIME_STEP.has(channel.dt_s):
         raise InputError(
-            f"{source.name}: the time step is {channel.dt_s:.3g} s; give a record with steps of"
+            f"{source.name}: the time step is {channel.dt_s:.3g} s; use a record with steps of"
             f" {TIME_STEP.words}"
         )
 
@@ -163,7 +163,7 @@ def check_number(source: Source, channels: int) -> None:
     """Raise if a file has more channels than any instrument."""
     if channels > MAX_CHANNELS:
         raise InputError(
-            f"{source.name}: found {channels} channels; give at most {MAX_CHANNELS} in a file"
+            f"{source.name}: found {channels} channels; enter at most {MAX_CHANNELS} in a file"
         )
 
 
@@ -179,7 +179,7 @@ def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -
     g = UNITS["g"]
     words = f"the header states a peak of {stated / g:.4g} g, the values reach {reached / g:.4g} g"
     if not stated / _PEAK_FACTOR <= reached <= stated * _PEAK_FACTOR:
-        raise InputError(f"{source.at(index)}: {words}; give a file whose header and values agree")
+        raise InputError(f"{source.at(index)}: {words}; use a file whose header and values agree")
     return () if abs(reached - stated) <= _PEAK_WITHIN * stated else (words,)
 
 
@@ -202,7 +202,7 @@ def check_length(source: Source, stated: Stated, reached_s: float, dt_s: float) 
     if stated.value > 0.0 and abs(reached_s - stated.value) > within_s:
         raise InputError(
             f"{source.at(stated.index)}: the heading states {stated.value:g} s, the record lasts"
-            f" {reached_s:g} s; give dt with more digits, or a file whose headings agree"
+            f" {reached_s:g} s; enter dt with more digits, or a file whose headings agree"
         )
 
 
@@ -211,7 +211,7 @@ def check_steps(source: Source, stated: Stated, exact: Stated) -> None:
     if abs(exact.value - stated.value) > stated.rounding + exact.rounding:
         raise InputError(
             f"{source.at(stated.index)}: found a step of {stated.value:g} s and one of"
-            f" {exact.value:g} s in line {exact.index + 1}; give a file whose headings agree"
+            f" {exact.value:g} s in line {exact.index + 1}; use a file whose headings agree"
         )
 
 
@@ -224,7 +224,7 @@ def check_only_blank(source: Source, first: int, stop: int, before: str) -> None
         if source.lines[index].strip():
             raise InputError(
                 f"{source.at(index)}: found {quoted(source.lines[index].strip())} after {before},"
-                " where a heading is due; give the whole file"
+                " where a heading is due; use the whole file"
             )
 
 

@@ -17,7 +17,7 @@ from solver.model import Floats
 # not rise evenly, as times of loggers do not.
 _FEW, _MANY = 5, 12
 _EVEN_WITHIN, _OFTEN, _NEARLY = 0.01, 0.1, 0.9  # of a step, of all steps
-SIDE_BY_SIDE = "tables side by side; give one of them"
+SIDE_BY_SIDE = "tables side by side; use one of them"
 _MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
 
 
@@ -79,7 +79,7 @@ def remedy(table: Floats) -> str:
     heading = f"a heading such as time_s,x_g{',y_g' * (table.shape[1] > 2)}"
     if not (columns := rising(table)):
         return (
-            f"give {heading}, or put one on each line, or give the values per line to motion"
+            f"enter {heading}, or put one on each line, or enter the values per line to motion"
             f" convert (--values-per-line {table.shape[1]})"
         )
     if counts := counting(table):
@@ -88,7 +88,7 @@ def remedy(table: Floats) -> str:
         if len(counts) > 1:
             deletion = f"columns {which} count the lines: delete them"
         remaining = np.delete(table, counts, axis=1)
-        then = remedy(remaining) if remaining.shape[1] > 1 else "give the time step dt"
+        then = remedy(remaining) if remaining.shape[1] > 1 else "enter the time step dt"
         return f"{deletion}; then {then}"
     if same := [i for i in columns[1:] if np.array_equal(table[:, i], table[:, columns[0]])]:
         return f"columns {columns[0] + 1} and {same[0] + 1} are the same: {SIDE_BY_SIDE}"

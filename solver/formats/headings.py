@@ -73,12 +73,12 @@ class Layout:
         place = self.source.at(self.heading_index)
         if heading.is_index:
             raise InputError(
-                f"{place}: found {quoted(heading.text)} over the first column; give times in"
-                " seconds, such as time_s, or delete the column and give the time step dt"
+                f"{place}: found {quoted(heading.text)} over the first column; enter times in"
+                " seconds, such as time_s, or delete the column and enter the time step dt"
             )
         if math.isnan(heading.seconds):
             raise InputError(
-                f"{place}: found times in {quoted(heading.unit)}; give them in s, ms or min, such"
+                f"{place}: found times in {quoted(heading.unit)}; enter them in s, ms or min, such"
                 " as time_s"
             )
         return heading.seconds
@@ -102,7 +102,7 @@ class Layout:
             raise InputError(
                 f"{self.source.at(index)}: the comment states {' and '.join(sizes.values())}, the"
                 f" heading {quoted(heading.text)} states {heading.unit}: which is it? Correct one"
-                " of them, or give the units"
+                " of them, or enter the units"
             )
         return self.source.scale(heading.unit, self.heading_index)
 
@@ -117,7 +117,7 @@ def laid_out(source: Source) -> Layout:
     start = first_row(lines)
     first, content = next(rows_of(lines, start), (-1, ""))
     if not content:
-        problem = likely_text(lines) or "found no numbers; give one or more columns of them"
+        problem = likely_text(lines) or "found no numbers; enter one or more columns of them"
         raise InputError(f"{source.name}: {problem}")
     separator = separator_of(content)
     fields = [field.strip() for field in content.split(separator)]
@@ -161,7 +161,7 @@ def _check_first(source: Source, first: int, fields: Sequence[str]) -> None:
         raise InputError(f"{source.at(first)}: {problem}")
     if any(map(_CLOCK.fullmatch, fields[:2])):
         raise InputError(
-            f"{source.at(first)}: found {quoted(fields[0])}, a date or a time of day; give seconds"
+            f"{source.at(first)}: found {quoted(fields[0])}, a date or a time of day; enter seconds"
             " from the start in the first column, such as time_s"
         )
 
@@ -188,7 +188,7 @@ def _headings(
         if len(texts) == width:
             return phrases.settled([parse(text) for text in texts]), start - 1, ""
         if width > 2:
-            misfit = f"found {len(texts)} headings over {width} columns; give one for each"
+            misfit = f"found {len(texts)} headings over {width} columns; enter one for each"
             return [], start - 1, misfit
     for index, line in reversed(remarks):
         if parsed := phrases.remark(line, separator, width):

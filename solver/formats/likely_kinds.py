@@ -14,8 +14,8 @@ _CONVERT = (
 )
 
 COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
-_AS_RECORD = "give the record itself, such as the file that its download page offers"
-_AS_READ = f"give the file of values that it reads, or {COLUMNS}"
+_AS_RECORD = "use the record itself, such as the file that its download page offers"
+_AS_READ = f"use the file of values that it reads, or {COLUMNS}"
 
 _TEXTS = (
     (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
@@ -32,9 +32,9 @@ LOOKED_AT = 15
 _BYTES = (
     (re.compile(rb"MS\x03"), "miniSEED 3", _CONVERT),
     (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),
-    (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its sheet as CSV"),
+    (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its worksheet as CSV"),
     (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
-    (re.compile(rb"%PDF"), "a PDF", "give its numbers as text or CSV"),
+    (re.compile(rb"%PDF"), "a PDF", "export its numbers as text or CSV"),
     (re.compile(rb"\x89HDF"), "HDF5, such as ASDF", _CONVERT),
     (re.compile(rb"MATLAB"), "a file of MATLAB", COLUMNS),
     (re.compile(rb"\x93NUMPY"), "an array of numpy", COLUMNS),

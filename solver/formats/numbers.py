@@ -142,7 +142,7 @@ def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
         index, row = rows[digits.index(odd)]
         raise InputError(
             f"{source.at(index)}: found {quoted(row.strip())}, with fewer digits than all other"
-            " values; give the whole file"
+            " values; use the whole file"
         )
 
 
@@ -151,7 +151,7 @@ def check_last(source: Source, index: int, fields: Sequence[str]) -> None:
     if is_cut_short(fields[-COMPARED:]):
         raise InputError(
             f"{source.at(index)}: found {quoted(fields[-1])} at the end, with fewer digits than all"
-            " other values; give the whole file"
+            " other values; use the whole file"
         )
 
 
@@ -186,11 +186,11 @@ def field_problem(field: str) -> str:
     if NUMBER.fullmatch(field) and is_finite_number(float(field)):
         return ""
     if field and not field.strip("*"):
-        return f"found {quoted(field)}, a number too large for its columns; give a wider file"
+        return f"found {quoted(field)}, a number too large for its columns; use a wider file"
     if _GROUPED.fullmatch(field):
-        return f"found {quoted(field)}; give a number without commas for thousands"
+        return f"found {quoted(field)}; enter a number without commas for thousands"
     point = " with a decimal point" if DECIMAL_COMMA.match(field) else ""
-    return f"found {quoted(field)}; give a number{point}"
+    return f"found {quoted(field)}; enter a number{point}"
 
 
 def number_in(field: str) -> float:
@@ -201,7 +201,7 @@ def number_in(field: str) -> float:
 def dated_table(source: Source, rows: Sequence[tuple[int, list[str]]], width: int) -> Floats:
     """Numbers of rows, each with the index of its line, but of the first column, a date."""
     raise_any(
-        f"{source.at(index)}: found {len(fields)} columns; give {width}"
+        f"{source.at(index)}: found {len(fields)} columns; enter {width}"
         for index, fields in rows
         if len(fields) != width
     )
@@ -248,7 +248,7 @@ def _apart(text: str) -> list[str]:
 def _check_enough(source: Source, block: Block) -> None:
     if block.count < 2:
         values = "1 value" if block.count == 1 else f"{block.count} values"
-        raise InputError(f"{source.at(block.promised)}: states {values}; give at least 2")
+        raise InputError(f"{source.at(block.promised)}: states {values}; enter at least 2")
 
 
 def _cut(row: str, layout: FieldFormat) -> list[str]:
@@ -264,7 +264,7 @@ def _fixed_problems(
         due, count = layout.per_line, number * layout.per_line + len(fields)
         if len(fields) != due and number < len(rows) - 1:
             values = "1 value" if len(fields) == 1 else f"{len(fields)} values"
-            yield f"{source.at(index)}: found {values}; give {due}"
+            yield f"{source.at(index)}: found {values}; enter {due}"
         yield from field_problems(source, index, fields)
     if count != block.count:
         yield _wrong_count(source, block, count)
@@ -319,12 +319,12 @@ def _cut_lines(
     for index in within:
         yield (
             f"{source.at(block.first + index)}: found a line of {len(rows[index])} characters that"
-            f" ends within a field of {layout.width}; give the whole file"
+            f" ends within a field of {layout.width}; use the whole file"
         )
 
 
 def _wrong_count(source: Source, block: Block, count: int) -> str:
-    remedy = "give the whole file" if count < block.count else "correct the count"
+    remedy = "use the whole file" if count < block.count else "correct the count"
     return f"{source.at(block.promised)}: states {block.count} values, found {count}; {remedy}"
 
 

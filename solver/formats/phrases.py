@@ -278,7 +278,7 @@ def step_in(source: Source, index: int, line: str) -> Stated:
     before, after = (match[1] or match[2] or "").lower(), match[5].lower()
     unit = before or after
     if unit in OTHER_TIMES:
-        raise InputError(f"{source.at(index)}: found a step in {unit}; give it in s, ms or min")
+        raise InputError(f"{source.at(index)}: found a step in {unit}; enter it in s, ms or min")
     # Behind the number may be another word; before it, or without a sign, it must be a time.
     if unit not in SECONDS and (before or not match[3]):
         return Stated(index=index)

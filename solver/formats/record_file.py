@@ -71,7 +71,7 @@ class MotionFile:
             unlisted = len(by_number) - _LISTED
             names += f"; ... and {unlisted} more" if unlisted > 0 else ""
             near = nearest(name, (record.name for record in self.channels)) if key else ""
-            asked = f"did you mean '{near}'? Give" if near else "give"
+            asked = f"did you mean '{near}'? Use" if near else "use"
             raise InputError(f"{self.name}: {problem}; {asked} one by name or number: {names}")
         return chosen
 

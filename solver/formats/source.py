@@ -91,16 +91,16 @@ class Source:
         if math.isnan(size):
             known = ", ".join(UNIT_CHOICES)
             raise InputError(
-                f"{self.at(index)}: found unit {quoted(stated)}; give an acceleration in {known}"
+                f"{self.at(index)}: found unit {quoted(stated)}; use an acceleration in {known}"
             )
         if self.response:
             raise InputError(
                 f"{self.at(index)}: the file is in {stated} and a response is given, which is that"
-                " of raw counts; give the file alone"
+                " of raw counts; use the file alone"
             )
         if self.units and not math.isclose(unit_size(self.units), size):
             problem = f"{self.at(index)}: the file is in {stated} but units are {self.units}"
-            raise InputError(Problem(problem, "give the units of the file, or none", about="units"))
+            raise InputError(Problem(problem, "enter the file's units, or none", about="units"))
         return size
 
     @property
@@ -116,12 +116,12 @@ class Source:
         if math.isnan(self.counts_per_mps2):
             raise InputError(
                 f"{problem}: raw counts are no acceleration without the response of the instrument;"
-                " give it (motion convert --response), as StationXML for miniSEED and SAC, or as"
+                " enter it (motion convert --response), as StationXML for miniSEED and SAC, or as"
                 " counts per m/s2"
             )
         if not SENSITIVITY.has(self.counts_per_mps2):
             raise InputError(
-                f"{problem}: the response is {self.response} counts per m/s2; give"
+                f"{problem}: the response is {self.response} counts per m/s2; enter"
                 f" {SENSITIVITY.words}"
             )
         return 1.0 / self.counts_per_mps2
@@ -136,7 +136,7 @@ class Source:
         if self.response and not self.units:
             return self.counts_scale(f"{self.name}: found no unit")
         if not self.units:
-            remedy = f"give units, one of {', '.join(UNIT_CHOICES)}, or a heading such as acc_g"
+            remedy = f"enter units, one of {', '.join(UNIT_CHOICES)}, or a heading such as acc_g"
             problem = f"{self.name}: found no unit of acceleration"
             raise InputError(Problem(problem, remedy, about="units"))
         return unit_size(self.units)
@@ -147,11 +147,11 @@ class Source:
         if math.isnan(value):
             if math.isnan(self.dt_s):
                 problem = f"{self.at(stated.index)}: found no time step"
-                raise InputError(Problem(problem, "give the time step dt", about="dt_s"))
+                raise InputError(Problem(problem, "enter the time step dt", about="dt_s"))
             return self.dt_s
         if not (is_finite_number(value) and value > 0.0):
             raise InputError(
-                f"{self.at(stated.index)}: found time step {value:g} s; give a number above 0"
+                f"{self.at(stated.index)}: found time step {value:g} s; enter a number above 0"
             )
         if math.isnan(self.dt_s):
             return value
@@ -160,7 +160,7 @@ class Source:
                 f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but the one"
                 f" given is {self.dt_s:.6g} s"
             )
-            remedy = "give the time step of the file, or none"
+            remedy = "enter the time step of the file, or none"
             raise InputError(Problem(problem, remedy, about="dt_s"))
         return self.dt_s
 
@@ -174,15 +174,17 @@ def open_source(
     """
     name, problems = _name(path), []
     if not isinstance(units, str) or (units and units not in UNIT_CHOICES):
-        problems.append(f"{name}: unit is {quoted(units)}; give one of {', '.join(UNIT_CHOICES)}")
+        problems.append(f"{name}: unit is {quoted(units)}; enter one of {', '.join(UNIT_CHOICES)}")
     unknown = isinstance(dt_s, float) and math.isnan(dt_s)
     # NaN stands for a step that is not given, and only a float can be NaN.
     if not unknown and not (is_finite_number(dt_s) and dt_s > 0.0):
-        problems.append(f"{name}: time step dt is {quoted(dt_s)}; give a number of seconds above 0")
+        problems.append(
+            f"{name}: time step dt is {quoted(dt_s)}; enter a number of seconds above 0"
+        )
     if type(values_per_line) is not int or values_per_line < 0:
-        problems.append(f"{name}: values per line is {quoted(values_per_line)}; give 1, 2, ...")
+        problems.append(f"{name}: values per line is {quoted(values_per_line)}; enter 1, 2, ...")
     if units and response:
-        problems.append(f"{name}: units and a response are given; give one of them")
+        problems.append(f"{name}: units and a response are given; use one of them")
     raise_any(problems)
     data = _bytes(path)
     return Source(
@@ -209,10 +211,10 @@ def _bytes(path: Path) -> bytes:
     try:
         if not path.exists():
             check_length(path)
-            raise InputError(f"{name}: no such file; {meant(path) or 'give the path of a record'}")
+            raise InputError(f"{name}: no such file; {meant(path) or 'use the path of a record'}")
     except OSError as error:
         raise InputError(f"{name}: cannot be read ({error.strerror})") from error
-    return read_file(path, MAX_BYTES, name, too_large="give a part of it")
+    return read_file(path, MAX_BYTES, name, too_large="use a part of it")
 
 
 def _lines(name: str, data: bytes) -> list[str]:
@@ -221,13 +223,13 @@ def _lines(name: str, data: bytes) -> list[str]:
         text = _LINE_END.sub("\n", text)
     count = text.count("\n") + 1
     if count > MAX_LINES:
-        raise InputError(f"{name}: found {count:,} lines; give at most {MAX_LINES:,}")
+        raise InputError(f"{name}: found {count:,} lines; enter at most {MAX_LINES:,}")
     lines = text.split("\n")
     if max(map(len, lines)) > MAX_LINE:
         if likely := likely_text([line[:MAX_LINE] for line in lines[:LOOKED_AT]]):
             raise InputError(f"{name}: {likely}")
         raise_any(
-            f"{name}:{number}: found a line of {len(line)} characters; give at most {MAX_LINE}"
+            f"{name}:{number}: found a line of {len(line)} characters; enter at most {MAX_LINE}"
             for number, line in enumerate(lines, start=1)
             if len(line) > MAX_LINE
         )
@@ -247,4 +249,4 @@ def _decode(name: str, data: bytes) -> str:
         data = data.rstrip(_END_OF_TEXT)
         if not _CONTROL.search(data):
             return data.decode("latin-1")
-    raise InputError(f"{name}: not a text file; {likely_bytes(data) or 'give text or CSV'}")
+    raise InputError(f"{name}: not a text file; {likely_bytes(data) or 'use text or CSV'}")

@@ -58,7 +58,7 @@ def read(source: Source) -> MotionFile:
     if layout.headings and (named := phrases.of_a_spectrum(layout.headings)):
         raise InputError(
             f"{source.at(layout.heading_index)}: found {', '.join(map(quoted, named))}: this is a"
-            " spectrum, no record; give accelerations by time"
+            " spectrum, no record; use accelerations by time"
         )
     _check_remarks(layout, table)
     timed = _has_times(layout, table)
@@ -68,7 +68,7 @@ def read(source: Source) -> MotionFile:
         ignored_names = (f"{quoted(layout.headings[i].text)}, {why}" for i, why in ignored.items())
         raise InputError(
             f"{source.name}: found no component of acceleration beside {'; '.join(ignored_names)}:"
-            " give one a heading such as acc_g"
+            " name one with a heading such as acc_g"
         )
     columns = table[:, taken].T
     if timed:
@@ -113,7 +113,7 @@ def _table(layout: Layout) -> Floats:
     if not layout.headings and (paired := pairs(table.ravel(), layout.width)) is not None:
         return paired
     if len(table) < 2:
-        raise InputError(f"{source.name}: found 1 sample; give at least 2")
+        raise InputError(f"{source.name}: found 1 sample; enter at least 2")
     if layout.misfit:
         raise InputError(f"{source.at(layout.heading_index)}: {layout.misfit}")
     if layout.width > 2 and not layout.headings:
@@ -152,7 +152,7 @@ def _row_problems(layout: Layout) -> Iterator[str]:
             yield from field_problems(source, index, fields)
         else:
             columns = "1 column" if len(fields) == 1 else f"{len(fields)} columns"
-            yield f"{source.at(index)}: found {columns}; give {width} as in the first row"
+            yield f"{source.at(index)}: found {columns}; enter {width} as in the first row"
 
 
 def _shaped(layout: Layout) -> Floats | None:
@@ -180,7 +180,7 @@ def _shaped(layout: Layout) -> Floats | None:
     if len(widths) == 1 and widths != {width} and last_width <= min(widths):
         raise InputError(
             f"{source.at(first)}: found {width} numbers above rows of {min(widths)}; if they are no"
-            " samples, put # before them, and give the time step"
+            " samples, put # before them, and enter the time step"
         )
     return None
 
@@ -190,7 +190,7 @@ def _across(layout: Layout, due: int) -> Floats:
     source = layout.source
     rows = [(i, layout.fields(row.rstrip(",;"))) for i, row in layout.rows()]
     raise_any(
-        f"{source.at(index)}: found {len(fields)} values; give {due} as in every line but the last"
+        f"{source.at(index)}: found {len(fields)} values; enter {due} as in every line but the last"
         for index, fields in rows
         if len(fields) > due or (len(fields) < due and index != rows[-1][0])
     )
@@ -217,7 +217,7 @@ def _check_count(layout: Layout, table: Floats) -> None:
     for index, line in layout.remarks:
         stated = phrases.count_in(line)
         if stated not in counts:
-            remedy = "give the whole file" if samples < stated else "correct the count"
+            remedy = "use the whole file" if samples < stated else "correct the count"
             raise InputError(
                 f"{layout.source.at(index)}: states {stated} samples, found {samples}; {remedy}"
             )
@@ -234,7 +234,7 @@ def _check_last(layout: Layout) -> None:
     if is_cut_short(fields):
         raise InputError(
             f"{source.at(rows[-1][0])}: found {quoted(fields[-1])} at the end, with fewer digits"
-            " than the values before it and without a line end; give the whole file, or end its"
+            " than the values before it and without a line end; use the whole file, or end its"
             " last line"
         )
 
@@ -251,12 +251,12 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
         if is_positive and phrases.is_of_a_spectrum(line):
             raise InputError(
                 f"{place}: found {quoted(line)} above values of which none is negative: this is a"
-                " spectrum, no record; give accelerations by time"
+                " spectrum, no record; use accelerations by time"
             )
         if not is_said and (quantity := phrases.other_quantity(line)):
             heading = "acc_g" if table.shape[1] == 1 else "time_s,acc_g"
             raise InputError(
-                f"{place}: found {quantity!r}, and no acceleration; give the file of acceleration,"
+                f"{place}: found {quantity!r}, and no acceleration; use the file of acceleration,"
                 f" or a heading such as {heading} if the values are accelerations"
             )
 
@@ -285,7 +285,7 @@ def _has_times(layout: Layout, table: Floats) -> bool:
                 f"{layout.source.name}: found times in columns 1 and {place}: {SIDE_BY_SIDE}"
             )
         raise InputError(
-            f"{layout.source.name}: found times in column {place}; give them in the first, and once"
+            f"{layout.source.name}: found times in column {place}; put them in the first, and once"
         )
     if not kinds or kinds[0] is Kind.TIME:
         return True
@@ -300,7 +300,7 @@ def _untimed_step(layout: Layout, columns: int) -> float:
     if math.isnan(stated.value) and math.isnan(source.dt_s):
         noun = "one column," if columns == 1 else "columns"
         problem = f"{source.name}: found {noun} without times"
-        raise InputError(Problem(problem, "give the time step dt", about="dt_s"))
+        raise InputError(Problem(problem, "enter the time step dt", about="dt_s"))
     return source.dt_s if math.isnan(stated.value) else source.step(stated)
 
 
@@ -320,7 +320,7 @@ def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
     if not notes and abs(dt_s - stated.value) > stated.rounding + 1e-4 * dt_s:
         raise InputError(
             f"{source.at(stated.index)}: states a step of {stated.value:.6g} s, the times have"
-            f" {dt_s:.6g} s; give a file in which they agree"
+            f" {dt_s:.6g} s; use a file in which they agree"
         )
     return dt_s, columns, notes
 
@@ -336,7 +336,7 @@ def _unit_of_times(layout: Layout, table: Floats) -> float:
         or_none = "" if heading else ", or delete the column if it counts the samples"
         raise InputError(
             f"{layout.source.at(max(layout.heading_index, 0))}: found {noun} with steps of"
-            f" {step:g}; give the unit of the times, such as time_s or time_ms{or_none}"
+            f" {step:g}; enter the unit of the times, such as time_s or time_ms{or_none}"
         )
     return unit_s
 
@@ -362,5 +362,5 @@ def _check_decimal_comma(layout: Layout, times: Floats) -> None:
         return
     index, content = rows[0]
     raise InputError(
-        f"{layout.source.at(index)}: found {content!r}; give a number with a decimal point"
+        f"{layout.source.at(index)}: found {content!r}; enter a number with a decimal point"
     )

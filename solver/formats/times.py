@@ -64,7 +64,7 @@ def sampled(
         problem = (
             f"{source.name}: found uneven times but the time step given is {source.dt_s:.6g} s"
         )
-        raise InputError(Problem(problem, "give none, and the record is resampled", about="dt_s"))
+        raise InputError(Problem(problem, "omit it, and the record is resampled", about="dt_s"))
     return _resampled(source, t_s, columns, line_of)
 
 
@@ -92,7 +92,7 @@ def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Eve
         return source.dt_s, columns, (rounding_note,)
     usual = (1.0 / rate for rate in _RATES_HZ if abs(1.0 / rate - step) <= blur)
     problem = f"{source.name}: {note}, {n} steps over {t_s[-1] - t_s[0]:.6g} s"
-    remedy = f"give the time step dt, such as {next(usual, step):.9g}"
+    remedy = f"enter the time step dt, such as {next(usual, step):.9g}"
     raise InputError(Problem(problem, remedy, about="dt_s"))
 
 
@@ -101,7 +101,7 @@ def _check_rising(source: Source, t_s: Floats, line_of: Callable[[int], int]) ->
     usual = float(np.median(steps))
     raise_any(
         f"{source.at(line_of(i + 1))}: found time {t_s[i + 1]:.6g} s after {t_s[i]:.6g} s, "
-        f"with a typical step of {usual:.6g} s; give increasing times"
+        f"with a typical step of {usual:.6g} s; enter increasing times"
         # Negated: a NaN is no increase either.
         for i in np.flatnonzero(~(steps >= 1e-9)).tolist()
     )
@@ -156,7 +156,7 @@ def _resampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[
     if best is None:
         raise InputError(
             f"{source.name}: found times over {length:.6g} s with a typical step of {usual:.6g} s;"
-            f" give a record of at most {MAX_SAMPLES:,} steps"
+            f" use a record of at most {MAX_SAMPLES:,} steps"
         )
     step, even, loss = best
     moved = f" by more than {100.0 * loss:.2g} % of the peak" if loss > 1e-9 else ""

@@ -141,7 +141,7 @@ def process_together(records: Sequence[Record], processing: Processing) -> tuple
     first = records[0]
     problems = [
         f"{later.name}: {len(later.a_mps2)} samples of {later.dt_s:g} s, but {first.name} has "
-        f"{len(first.a_mps2)} of {first.dt_s:g} s; give components of one length and step"
+        f"{len(first.a_mps2)} of {first.dt_s:g} s; use components of one length and step"
         for later in records[1:]
         if (len(later.a_mps2), later.dt_s) != (len(first.a_mps2), first.dt_s)
     ]
@@ -271,17 +271,17 @@ def _range_problems(processing: Processing) -> list[str]:
     # Negated, so that NaN is refused.
     if not (0.0 <= processing.from_s < processing.to_s):
         problems.append(
-            f"cut from {processing.from_s:g} s to {processing.to_s:g} s; give two times, the "
+            f"cut from {processing.from_s:g} s to {processing.to_s:g} s; enter two times, the "
             f"first 0 or above, the second later"
         )
     if not -1 <= processing.baseline <= MAX_DEGREE:
         problems.append(
-            f"degree of the baseline is {processing.baseline}; give 0 (mean) to {MAX_DEGREE}, "
+            f"degree of the baseline is {processing.baseline}; enter 0 (mean) to {MAX_DEGREE}, "
             f"or -1 for none"
         )
     for name, value in (("new time step", processing.dt_s), ("zeros at the end", processing.pad_s)):
         if not 0.0 <= value < math.inf:
-            problems.append(f"{name}: {value:g} s; give a number of seconds, 0 for none")
+            problems.append(f"{name}: {value:g} s; enter a number of seconds, 0 for none")
     return problems
 
 
@@ -290,15 +290,15 @@ def _filter_problems(processing: Processing) -> list[str]:
     high, low = processing.highpass_hz, processing.lowpass_hz
     for name, corner in (("high-pass", high), ("low-pass", low)):
         if not 0.0 <= corner < math.inf:
-            problems.append(f"{name} corner is {corner:g} Hz; give a frequency, 0 for none")
+            problems.append(f"{name} corner is {corner:g} Hz; enter a frequency, 0 for none")
     if 0.0 < low <= high:
         problems.append(
-            f"high-pass corner is {high:g} Hz, low-pass corner {low:g} Hz; give a low-pass above "
+            f"high-pass corner is {high:g} Hz, low-pass corner {low:g} Hz; enter a low-pass above "
             f"the high-pass"
         )
     # With a first-order high-pass the displacement drifts without limit.
     if not 2 <= processing.order <= MAX_ORDER:
-        problems.append(f"filter order is {processing.order}; give 2 to {MAX_ORDER}")
+        problems.append(f"filter order is {processing.order}; enter 2 to {MAX_ORDER}")
     return problems
 
 
@@ -310,12 +310,12 @@ def _record_problems(record: Record, processing: Processing) -> list[str]:
     if stop - start < max(2, processing.baseline + 2):
         problems.append(
             f"cut from {processing.from_s:g} s to {processing.to_s:g} s leaves "
-            f"{max(stop - start, 0)} samples of a record of {length_s:g} s; give a longer part"
+            f"{max(stop - start, 0)} samples of a record of {length_s:g} s; use a longer part"
         )
     nyquist_hz = 0.5 / record.dt_s
     corners = {"high-pass": processing.highpass_hz, "low-pass": processing.lowpass_hz}
     problems += [
-        f"{name} corner is {corner:g} Hz; give less than {nyquist_hz:g} Hz, half the sampling rate"
+        f"{name} corner is {corner:g} Hz; enter less than {nyquist_hz:g} Hz, half the sampling rate"
         for name, corner in corners.items()
         if corner >= nyquist_hz
     ]
@@ -325,11 +325,11 @@ def _record_problems(record: Record, processing: Processing) -> list[str]:
 def _size_problems(record: Record, processing: Processing, length_s: float) -> list[str]:
     new_s = processing.dt_s or record.dt_s
     if new_s > length_s:
-        return [f"new time step is {new_s:g} s; give less than the {length_s:g} s of the record"]
+        return [f"new time step is {new_s:g} s; enter less than the {length_s:g} s of the record"]
     ratio = new_s / record.dt_s
     filtered_s = length_s + 2.0 * _pad_s(processing)
     drawn = _finer(ratio) if ratio > 1.0 else 1
     count = max(drawn * filtered_s / record.dt_s, (filtered_s + processing.pad_s) / new_s)
     if count > MAX_SAMPLES:
-        return [f"gives {count:.2g} samples; give a larger step, higher corners or fewer zeros"]
+        return [f"gives {count:.2g} samples; use a larger step, higher corners or fewer zeros"]
     return []

@@ -95,19 +95,19 @@ def record_from_values(
     """
     _check_arguments(name, units, dt_s)
     if isinstance(values, str | bytes) or not isinstance(values, Sequence | np.ndarray):
-        raise InputError(f"{name} is {quoted(values)}; give one row of real numbers")
+        raise InputError(f"{name} is {quoted(values)}; enter one row of real numbers")
     if isinstance(values, np.ndarray):
         # Masked samples have values under their mask, and tolist makes whole numbers of dates.
         if values.dtype.kind not in "fiu" or np.ma.is_masked(values) or values.ndim != 1:
             raise InputError(
                 f"{name}: an array of {values.ndim} dimensions and type {values.dtype}, or with"
-                " masked values; give one row of real numbers"
+                " masked values; enter one row of real numbers"
             )
         values = values.tolist()
     if len(values) < 2:
-        raise InputError(f"{name}: a column of {len(values)}; give at least 2 values")
+        raise InputError(f"{name}: a column of {len(values)}; enter at least 2 values")
     problems = [
-        f"{name}: value {i} is {quoted(value)}; give a number"
+        f"{name}: value {i} is {quoted(value)}; enter a number"
         for i, value in enumerate(values, start=1)
         if not is_finite_number(value)
     ]
@@ -210,7 +210,7 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     if codes:
         raise InputError(
             f"{name}: sample {index + 1:,} is {min(codes, key=len)} where no other exceeds"
-            f" {usual / UNITS['g']:.3g} g: it is a code for missing data; give a record without"
+            f" {usual / UNITS['g']:.3g} g: it is a code for missing data; use a record without"
             " gaps"
         )
 
@@ -221,7 +221,7 @@ def check_peak(name: str, a_mps2: Floats) -> None:
     if not PEAK.has(peak_g):
         raise InputError(
             f"{name}: the values reach {peak_g:.3g} g, and no ground or roof shakes with"
-            f" {PEAK.most:g} g: is it cm/s2? Give the units that they have, or correct them"
+            f" {PEAK.most:g} g: is it cm/s2? Enter the units that they have, or correct them"
         )
 
 
@@ -266,9 +266,9 @@ def quoted(value: object) -> str:
 def _check_arguments(name: str, units: str, dt_s: float) -> None:
     problems = []
     if not isinstance(units, str) or units not in UNITS:
-        problems.append(f"{name}: unit is {units!r}; give one of {', '.join(UNITS)}")
+        problems.append(f"{name}: unit is {units!r}; enter one of {', '.join(UNITS)}")
     if not (is_finite_number(dt_s) and dt_s > 0.0):
-        problems.append(f"{name}: time step dt is {dt_s!r}; give a number of seconds above 0")
+        problems.append(f"{name}: time step dt is {dt_s!r}; enter a number of seconds above 0")
     raise_any(problems)
 
 

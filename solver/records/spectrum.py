@@ -164,13 +164,13 @@ def refined(a: Floats, steps: int) -> Floats:
 def _check_spectrum(a: Floats, dt_s: float, periods: Floats, damping: float) -> None:
     problems = []
     if a.ndim != 1 or len(a) < 1 or not np.isfinite(a).all():
-        problems.append("acceleration: give one column of finite numbers")
+        problems.append("acceleration: enter one column of finite numbers")
     if not (math.isfinite(dt_s) and dt_s > 0.0):
-        problems.append(f"time step dt is {dt_s!r}; give a number of seconds above 0")
+        problems.append(f"time step dt is {dt_s!r}; enter a number of seconds above 0")
     if periods.ndim != 1 or not (np.isfinite(periods).all() and (periods >= 0.0).all()):
-        problems.append("periods: give one column of numbers of seconds, 0 or above")
+        problems.append("periods: enter one column of numbers of seconds, 0 or above")
     if not 0.0 <= damping < 1.0:
-        problems.append(f"damping is {damping!r}; give a fraction from 0 to below 1")
+        problems.append(f"damping is {damping!r}; enter a fraction from 0 to below 1")
     raise_any(problems)
 
 
@@ -267,7 +267,7 @@ def factor_to_target(
     shortest_s, longest_s = periods_s
     if not 0.0 < shortest_s < longest_s < math.inf:
         raise InputError(
-            f"period range is {shortest_s:g} s to {longest_s:g} s; give two periods above 0, the "
+            f"period range is {shortest_s:g} s to {longest_s:g} s; enter two periods above 0, the "
             f"second longer"
         )
     count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
@@ -288,10 +288,10 @@ def _log_spectrum(record: Record, periods_s: Floats) -> Floats:
 
 def _check_design(s_ds_g: float, s_d1_g: float, t_l_s: float) -> None:
     problems = [
-        f"{name} is {value:g} {unit}; give a number above 0"
+        f"{name} is {value:g} {unit}; enter a number above 0"
         for name, value, unit in (("S_DS", s_ds_g, "g"), ("S_D1", s_d1_g, "g"), ("T_L", t_l_s, "s"))
         if not 0.0 < value < math.inf
     ]
     if not problems and t_l_s <= s_d1_g / s_ds_g:
-        problems = [f"T_L is {t_l_s:g} s; give more than T_S = {s_d1_g / s_ds_g:g} s"]
+        problems = [f"T_L is {t_l_s:g} s; enter more than T_S = {s_d1_g / s_ds_g:g} s"]
     raise_any(problems)

@@ -272,10 +272,10 @@ def approximate_period_s(system: str, height_m: float) -> float:
     problems = []
     if system not in APPROXIMATE_PERIODS:
         problems.append(
-            f"structure: found {system!r}; give one of {', '.join(APPROXIMATE_PERIODS)}"
+            f"structure: found {system!r}; enter one of {', '.join(APPROXIMATE_PERIODS)}"
         )
     if not 0.0 < height_m < math.inf:
-        problems.append(f"height: found {height_m} m; give a number above 0")
+        problems.append(f"height: found {height_m} m; enter a number above 0")
     raise_any(problems)
     coefficient, exponent = APPROXIMATE_PERIODS[system]
     return float(coefficient * (height_m / FOOT_M) ** exponent)

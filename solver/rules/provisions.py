@@ -163,11 +163,16 @@ def minimum_motions(rules: RuleSet, basis: Basis) -> float:
 class Neighbor(StrEnum):
     """Kind of object on the other side of a clearance."""
 
-    LIKE = "like array"
+    LIKE = "array of similar construction"
     FIXED = "fixed object"
-    UNLIKE = "unlike array"
+    UNLIKE = "array of different construction"
     PARAPET = "edge with qualifying parapet"
     EDGE = "edge without qualifying parapet"
+
+    @classmethod
+    def _missing_(cls, value: object) -> Neighbor | None:
+        # Words of results before 0.4.0.
+        return {"like array": cls.LIKE, "unlike array": cls.UNLIKE}.get(str(value))
 
     @property
     def is_edge(self) -> bool:

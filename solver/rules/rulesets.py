@@ -155,7 +155,7 @@ class RuleSet:
             known = ", ".join(self.values)
             raise InputError([f"provision is '{key}'; {self.name} has {known}" for key in unknown])
         outside = [
-            f"{key} is {value!r:.40}; give {ALLOWED[key].words}"
+            f"{key} is {value!r:.40}; enter {ALLOWED[key].words}"
             for key, (value, _) in changes.items()
             if not ALLOWED[key].has(value)
         ]

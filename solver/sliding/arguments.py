@@ -71,7 +71,7 @@ def scene_of(
     gravity = "a number of m/s2 above 0"
     g_mps2 = checked_number("g_mps2", g_mps2, gravity, _is_positive, problems)
     if not is_method(method):
-        problems.append(f"method is {shortened(method)}; give one of {', '.join(methods())}")
+        problems.append(f"method is {shortened(method)}; use one of {', '.join(methods())}")
     elif records["ay_mps2"] is not None or not friction.is_constant:
         problems += _plane_faults(method, parameters)
     else:
@@ -108,7 +108,7 @@ def unit_size(values: Mapping[str, Given | None], units: str | None, problems: l
     if any(isinstance(value, Record | Motion) for value in values.values()):
         problems.append("units are given beside a record or a motion, which is in m/s2; omit them")
     if units not in UNITS:
-        problems.append(f"units is {shortened(units)}; give one of {', '.join(UNITS)}")
+        problems.append(f"units is {shortened(units)}; use one of {', '.join(UNITS)}")
     return UNITS.get(units, 1.0)
 
 
@@ -123,10 +123,10 @@ def _size_of_series(values: Mapping[str, Given | None], problems: list[str]) -> 
     if any(map(math.isnan, sizes.values())):
         unknown = next(name for name, size in sizes.items() if math.isnan(size))
         problems.append(
-            f"{unknown} is a Series without a unit; give units, or a name such as acceleration_g"
+            f"{unknown} is a Series without a unit; use units, or a name such as acceleration_g"
         )
     elif len({*sizes.values()}) > 1 or 0 < len(sizes) < sum(e is not None for e in values.values()):
-        problems.append("some components are Series, in other units than the rest; give units")
+        problems.append("some components are Series, in other units than the rest; use units")
     return next(iter(sizes.values()), 1.0)
 
 
@@ -146,7 +146,7 @@ def _step_of_series(name: str, series: Any, problems: list[str]) -> float | None
     steps = np.diff(times)
     step = float(f"{(times[-1] - times[0]) / len(steps):.9g}")
     if not (step > 0.0 and np.abs(steps - step).max() <= 1e-3 * step):
-        problems.append(f"{name} has an uneven index; give times at one step, in seconds")
+        problems.append(f"{name} has an uneven index; use times at one step, in seconds")
         return 1.0  # which is of no account beside the problem
     return step
 
@@ -160,7 +160,7 @@ def _warn_if_in_g(run: Scene) -> None:
     if 0.0 < peak < _WEAK * yield_ratio * run.g_mps2:
         warnings.warn(
             f"the accelerations reach {peak:.3g} m/s2, and {yield_ratio * run.g_mps2:.3g} m/s2"
-            " slips: give units='g' if they are in g, or units='m/s2'",
+            " slips: use units='g' if they are in g, or units='m/s2'",
             stacklevel=4,
         )
 
@@ -197,14 +197,14 @@ def unpacked(
         )
     if len(steps) > 1:
         steps_text = " and ".join(f"{step:g} s" for step in sorted(steps))
-        problems.append(f"the components have steps of {steps_text}; give components of one step")
+        problems.append(f"the components have steps of {steps_text}; use components of one step")
     dt_s = max(steps, default=dt_s)
     if any(isinstance(value, Motion) for value in transverse):
-        problems.append("a motion is given as one component; give it first and alone")
+        problems.append("a motion is given as one component; use it first and alone")
     if not isinstance(along, Motion):
         return {name: _samples(value) for name, value in values.items()}, dt_s, 1.0
     if any(value is not None for value in transverse):
-        problems.append("a motion is given with further components; give it alone")
+        problems.append("a motion is given with further components; use it alone")
     components = {name: getattr(along, name) for name in ("ax_mps2", "ay_mps2", "az_mps2")}
     return {n: a if a.size else None for n, a in components.items()}, dt_s, along.scale
 
@@ -250,7 +250,7 @@ def checked_number(
             number = math.nan
         if fits(number):
             return number
-    problems.append(f"{name} is {shortened(value)}; give {accepted}")
+    problems.append(f"{name} is {shortened(value)}; use {accepted}")
     return math.nan
 
 
@@ -269,7 +269,7 @@ def checked_friction(name: str, mu: float | Friction, problems: list[str]) -> Fr
     )
     if checked.mu_static < checked.mu_slow:
         problems.append(
-            f"mu_static is {checked.mu_static:g}; give mu_slow, {checked.mu_slow:g}, or more"
+            f"mu_static is {checked.mu_static:g}; use mu_slow, {checked.mu_slow:g}, or more"
         )
     return checked
 
@@ -308,7 +308,7 @@ def checked_records(
     }
     shape = checked["ax_mps2"].shape
     problems += [
-        f"{name} has shape {checked[name].shape}; give the shape of ax_mps2, {shape}"
+        f"{name} has shape {checked[name].shape}; use the shape of ax_mps2, {shape}"
         for name, values in records.items()
         if values is not None and checked[name].shape != shape
     ]
@@ -323,7 +323,7 @@ def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:
     if method != "exact":
         problems.append(
             f"method is {shortened(method)}; two axes and velocity-dependent friction need 'exact'"
-            ": omit ay_mps2 and give one coefficient, or omit the method"
+            ": omit ay_mps2 and use one coefficient, or omit the method"
         )
     low, high = two_axes.TOLERANCES
     accepted = f"a number from {low:g} to {high:g}"
@@ -351,7 +351,7 @@ def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list
 
 def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> Floats:
     """Return a read-only float64 view: numba would compile a second version for writable arrays."""
-    remedy = f"{name} is not a row of real numbers; give a sequence of accelerations"
+    remedy = f"{name} is not a row of real numbers; use a sequence of accelerations"
     try:
         samples = np.asanyarray(values)
     except (TypeError, ValueError, OverflowError):
@@ -364,13 +364,13 @@ def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> 
         problem = (
             "has masked samples" if samples.dtype.kind in "fiu" else f"is of type {samples.dtype}"
         )
-        problems.append(f"{name} {problem}; give a sequence of accelerations, all real numbers")
+        problems.append(f"{name} {problem}; use a sequence of accelerations, all real numbers")
         return NO_RECORD
     record = np.ascontiguousarray(samples, dtype=np.float64)
     if record.ndim != 1 or record.size < 2:
-        problems.append(f"{name} has shape {record.shape}; give one row of 2 samples or more")
+        problems.append(f"{name} has shape {record.shape}; use one row of 2 samples or more")
         return NO_RECORD
     if not np.isfinite(record).all():
         first = int(np.flatnonzero(~np.isfinite(record))[0])
-        problems.append(f"{name}[{first}] is {record[first]}; give finite accelerations")
+        problems.append(f"{name}[{first}] is {record[first]}; use finite accelerations")
     return read_only(record)

@@ -247,7 +247,7 @@ def motion(
     if signs is None:
         signs = x.signs if isinstance(x, Motion) else (1, -1)
     if not signs or not {*signs} <= {1, -1}:
-        raise InputError(f"signs is {shortened(signs)}; give +1, -1 or both")
+        raise InputError(f"signs is {shortened(signs)}; use +1, -1 or both")
     own_name = x.name if isinstance(x, Record) else "motion"
     return Motion(
         id=id or (x.id if isinstance(x, Motion) else own_name),

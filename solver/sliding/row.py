@@ -165,12 +165,12 @@ def _faults(row: BlockRow) -> list[str]:
     """Return an error for every invalid value of a row."""
     problems = []
     if not row.mus:
-        problems.append("mus is empty; give the friction coefficient of 1 block or more")
+        problems.append("mus is empty; use the friction coefficient of 1 block or more")
     if not all(is_zero_or_more(mu) for mu in row.mus):
-        problems.append(f"mus is {row.mus!r}; give friction coefficients of 0 or more")
+        problems.append(f"mus is {row.mus!r}; use friction coefficients of 0 or more")
     for name in ("stiffness_per_s2", "damping_per_s"):
         if not is_zero_or_more(getattr(row, name)):
-            problems.append(f"{name} is {getattr(row, name)!r}; give a finite number of 0 or more")
+            problems.append(f"{name} is {getattr(row, name)!r}; use a finite number of 0 or more")
     return problems + _share_faults(row.shares, len(row.mus))
 
 
@@ -178,9 +178,9 @@ def _share_faults(shares: Sequence[float], count: int) -> list[str]:
     if not shares:
         return []
     if len(shares) != count:
-        return [f"shares has {len(shares)} values for {count} blocks; give one for each, or none"]
+        return [f"shares has {len(shares)} values for {count} blocks; use one for each, or none"]
     if not all(0.0 < share < math.inf for share in shares) or abs(math.fsum(shares) - 1.0) > 1e-9:
-        return [f"shares is {shares!r}; give numbers above 0 with a sum of 1"]
+        return [f"shares is {shares!r}; use numbers above 0 with a sum of 1"]
     return []
 
 
@@ -200,5 +200,5 @@ def _too_stiff(scene: Scene, row: BlockRow) -> list[str]:
         return []
     return [
         f"stiffness_per_s2 {row.stiffness_per_s2:g} with damping_per_s {row.damping_per_s:g} takes "
-        f"more than {MOST_STEPS:.0e} steps; give softer links, or model the row as one rigid block"
+        f"more than {MOST_STEPS:.0e} steps; use softer links, or model the row as one rigid block"
     ]

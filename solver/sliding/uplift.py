@@ -2,7 +2,7 @@
 
 A block 2 m wide with its center of gravity 0.5 m high tips at a shear of twice its normal force.
 
-Integrates no motion; with uplift no displacement is given. Read `uplift`, then `tipping`.
+Integrates no motion; with uplift no displacement reported. Read `uplift`, then `tipping`.
 """
 
 from __future__ import annotations
@@ -137,7 +137,7 @@ def tipping_at(demand: float, friction: Friction, supports: Supports) -> Tipping
     """
     lengths = {"height_m": supports.height_m, "spacing_m": supports.spacing_m}
     raise_any(
-        f"{name} is {value!r}; give a length in meters above 0"
+        f"{name} is {value!r}; use a length in meters above 0"
         for name, value in lengths.items()
         if not 0.0 < value < math.inf
     )

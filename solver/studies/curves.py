@@ -154,7 +154,7 @@ def fit_prd(
     coefficients, _, rank, _ = np.linalg.lstsq(terms, log_prd, rcond=None)
     if rank < TERMS:
         raise InputError(
-            "the cases do not determine a formula; give two or more slopes, friction "
+            "the cases do not determine a formula; use two or more slopes, friction "
             "coefficients and intensities"
         )
     coefficients = np.array([_to_digits(value) for value in coefficients])

@@ -79,7 +79,7 @@ def predictive(surfaces: Sequence[Series]) -> Predictive:
     total, count = int(sizes.sum()), len(groups)
     freedom = total - count
     if freedom < 2:
-        raise InputError(f"{total} friction runs on {count} surfaces; give two more than surfaces")
+        raise InputError(f"{total} friction runs on {count} surfaces; use two more than surfaces")
     squares = sum(float(((group - group.mean()) ** 2).sum()) for group in groups)
     between, p_value = 0.0, math.nan
     if count > 1:

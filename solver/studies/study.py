@@ -189,16 +189,16 @@ def study(
     array([[0.256]])
     """
     as_motions = [motion(item) if isinstance(item, Record) else item for item in motions]
-    problems = [] if as_motions else ["motions is empty; give one or more"]
+    problems = [] if as_motions else ["motions is empty; use one or more"]
     if len({item.id for item in as_motions}) < len(as_motions):
-        problems.append("two motions have one name; give solver.motion an id")
+        problems.append("two motions have one name; pass an id to solver.motion")
     axes = [
         axis("slopes_rad", slopes_rad, -math.pi / 2, math.pi / 2, problems),
         axis("mus", mus, 0.0, math.inf, problems),
         axis("intensities", intensities, 0.0, math.inf, problems),
     ]
     if any((np.diff(values) <= 0.0).any() for values in axes):
-        problems.append("slopes_rad, mus, intensities: give each value once, in increasing order")
+        problems.append("slopes_rad, mus, intensities: use each value once, in increasing order")
     if problems:
         raise InputError(problems)
     campaign = _campaign(as_motions, *axes)

@@ -192,7 +192,7 @@ def sweep_all(
         if isinstance(record, Record | Motion):
             components.append(_components(record, None, None, None, None, problems))
         else:
-            problems.append(f"record {n} is {shortened(record)}; give records or motions")
+            problems.append(f"record {n} is {shortened(record)}; use records or motions")
     raise_any(problems)
     return _swept(components, axes, g, progress or _no_progress)
 
@@ -320,14 +320,14 @@ def axis(name: str, values: ArrayLike, above: float, below: float, problems: lis
     except (TypeError, ValueError, OverflowError):
         samples = np.empty(0, dtype=object)
     if samples.dtype.kind not in "fiu" or np.ma.is_masked(samples):
-        problems.append(f"{name} is not a row of real numbers; give values that `slide` accepts")
+        problems.append(f"{name} is not a row of real numbers; use values that `slide` accepts")
         return np.empty(0)
     array = np.asarray(samples, dtype=np.float64)
     if array.ndim != 1 or array.size == 0:
-        problems.append(f"{name} has shape {array.shape}; give one row of values")
+        problems.append(f"{name} has shape {array.shape}; use one row of values")
     wrong = array[~((array > above) & (array < below))]
     if wrong.size:
-        problems.append(f"{name} has {wrong[0]}; give values that `slide` accepts")
+        problems.append(f"{name} has {wrong[0]}; use values that `slide` accepts")
     return array
 
 

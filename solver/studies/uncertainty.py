@@ -66,7 +66,7 @@ def spread_of_tests(values: Sequence[float]) -> Spread:
     Raises `InputError` with fewer than three values, or one that is not above 0.
     """
     if len(values) < 3 or min(values) <= 0.0:
-        raise InputError(f"{len(values)} tested values; give three or more, each above 0")
+        raise InputError(f"{len(values)} tested values; use three or more, each above 0")
     logs = np.log(values)
     return Spread(center=float(np.exp(logs.mean())), beta=float(logs.std(ddof=1)))
 

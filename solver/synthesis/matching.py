@@ -165,15 +165,15 @@ def _check(target: Target, dt_s: float, duration_s: float) -> None:
     freq_hz, sa_g = (np.asarray(column, dtype=np.float64) for column in target)
     problems = []
     if freq_hz.ndim != 1 or freq_hz.shape != sa_g.shape or len(freq_hz) < 2:
-        problems.append("target spectrum: give as many accelerations as frequencies, at least 2")
+        problems.append("target spectrum: use as many accelerations as frequencies, at least 2")
     elif not (freq_hz[0] > 0.0 and np.all(np.diff(freq_hz) > 0.0) and np.isfinite(freq_hz[-1])):
-        problems.append("target spectrum: give increasing frequencies above 0 [Hz]")
+        problems.append("target spectrum: use increasing frequencies above 0 [Hz]")
     if not np.all((sa_g > 0.0) & np.isfinite(sa_g)):
-        problems.append("target spectrum: give accelerations above 0 [g]")
+        problems.append("target spectrum: use accelerations above 0 [g]")
     if not 0.001 <= dt_s <= 0.01:
-        problems.append(f"time step dt is {dt_s!r}; give 0.001 to 0.01 s")
+        problems.append(f"time step dt is {dt_s!r}; use 0.001 to 0.01 s")
     if not 10.0 <= duration_s <= 60_000 * dt_s:
-        problems.append(f"duration is {duration_s!r}; give from 10 s to 60,000 time steps")
+        problems.append(f"duration is {duration_s!r}; use from 10 s to 60,000 time steps")
     raise_any(problems)
 
 

@@ -271,7 +271,7 @@ def make_suite(
     Record('motion-01-x', 6001 samples at 0.005 s)
     """
     if count < 1 or seed < 0:
-        raise InputError(f"suite: count {count} and seed {seed}; give at least 1 and at least 0")
+        raise InputError(f"suite: count {count} and seed {seed}; use at least 1 and at least 0")
     horizontal, vertical = (
         make_frame(target, dt_s, duration_s) for target in (horizontal_target, vertical_target)
     )
@@ -336,7 +336,7 @@ def synthesize(
         nearest = min(nearest, (max(1.0 / fit.minimum, fit.maximum), reached))
     raise InputError(
         f"{name}: {DRAWS} motions of {duration_s:g} s all miss the target spectrum; the closest "
-        f"has {nearest[1]} times the target; give a smoother target or a longer duration"
+        f"has {nearest[1]} times the target; use a smoother target or a longer duration"
     )
 
 
@@ -360,7 +360,7 @@ def _lowest(frame: MatchingFrame, a: Floats) -> float:
 def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s: float) -> None:
     n = round(duration_s / dt_s) + 1
     problems = [
-        f"records of motion {k}: found {len(group)}; give one, two or three"
+        f"records of motion {k}: found {len(group)}; use one, two or three"
         for k, group in enumerate(records, start=1)
         if not 1 <= len(group) <= 3
     ]
@@ -369,9 +369,9 @@ def _check_records(records: Sequence[Sequence[Record]], dt_s: float, duration_s:
         if found_s < _SHORTEST_SHARE * duration_s:
             shortest = f"{_SHORTEST_SHARE * duration_s:g} s"
             problems.append(
-                f"{record.name}: lasts {found_s:g} s; give a seed of at least {shortest}"
+                f"{record.name}: lasts {found_s:g} s; use a seed of at least {shortest}"
             )
         elif not strongest(record, dt_s, n).any():
-            problems.append(f"{record.name}: is constant; give another record as a seed")
+            problems.append(f"{record.name}: is constant; use another record as a seed")
     if problems:
         raise InputError(problems)

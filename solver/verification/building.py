@@ -172,7 +172,7 @@ def recorded_buildings(folder: Path) -> tuple[FloorRecords, ...]:
     """
     market = folder / "roof_575_market"
     if not market.is_dir():
-        raise InputError(f"{folder}: no subfolder roof_575_market; give a folder that contains it")
+        raise InputError(f"{folder}: no subfolder roof_575_market; use a folder that contains it")
     return (_market_street(market),)
 
 

@@ -100,10 +100,10 @@ curve, target, ballast = (partial(Kind, read) for read in TRUTHS)
 
 KINDS = {
     "PGA in cm/s2": curve(
-        table("PGA [cm/s2],annual rate", scaled(CURVE, 980.665, 1.0)), r"give PGA \[g\]", RATES
+        table("PGA [cm/s2],annual rate", scaled(CURVE, 980.665, 1.0)), r"enter PGA \[g\]", RATES
     ),
     "PGA in percent": curve(
-        table("PGA [%g],annual rate", scaled(CURVE, 100.0, 1.0)), r"give PGA \[g\]", RATES
+        table("PGA [%g],annual rate", scaled(CURVE, 100.0, 1.0)), r"enter PGA \[g\]", RATES
     ),
     "probabilities in 50 years": curve(
         table("PGA [g],probability of exceedance in 50 years",
@@ -118,7 +118,7 @@ KINDS = {
         table("PGA [g],annual rate", [(x, 1.0 / (1.0 / rate)) for x, rate in CURVE]),
     ),
     "a curve of Sa": curve(
-        table("Sa(1 s) [g],annual rate", CURVE), r"give PGA \[g\]", then={"is_spectral": True}
+        table("Sa(1 s) [g],annual rate", CURVE), r"enter PGA \[g\]", then={"is_spectral": True}
     ),
     "two curves of PGA": curve(saved(("PGA", "PGA, no basin")), "keep one", saved(("PGA",))),
     "no curve of PGA": curve(
@@ -127,18 +127,18 @@ KINDS = {
     ),
     "three columns": curve(
         table("PGA [g],annual rate,fractile", with_column(CURVE, 0.5)),
-        "give intensity and annual rate in two columns", RATES,
+        "enter intensity and annual rate in two columns", RATES,
     ),
     "a line on probabilities": curve(
         "# 2 % probability in 50 years is 0.3 g\n" + RATES, "or delete it", RATES
     ),
     "periods in ms": target(
-        table("period [ms],horizontal [g]", scaled(SPECTRUM, 1000.0, 1.0)), r"give period \[s\]",
+        table("period [ms],horizontal [g]", scaled(SPECTRUM, 1000.0, 1.0)), r"enter period \[s\]",
         PERIODS,
     ),
     "a spectrum in cm/s2": target(
         table("period [s],horizontal [cm/s2]", scaled(SPECTRUM, 1.0, 980.665)),
-        r"give horizontal \[g\]", PERIODS,
+        r"enter horizontal \[g\]", PERIODS,
     ),
     "frequency and period": target(
         table("frequency [Hz],period [s],horizontal [g]", [(1.0 / t, t, a) for t, a in SPECTRUM]),
@@ -154,35 +154,35 @@ KINDS = {
         PERIODS,
     ),
     "no headings": target(
-        table("made by hand", SPECTRUM), r"give frequency \[Hz\] or period \[s\], horizontal \[g\]",
+        table("made by hand", SPECTRUM), r"enter frequency \[Hz\] or period \[s\], horizontal",
         PERIODS,
     ),
-    "a period twice": target(PERIODS + "1.0,0.8\n", "give each frequency once", PERIODS),
-    "a blank cell": target(PERIODS.replace("0.5,1.6", "0.5,"), "give a number greater than 0",
+    "a period twice": target(PERIODS + "1.0,0.8\n", "enter each frequency once", PERIODS),
+    "a blank cell": target(PERIODS.replace("0.5,1.6", "0.5,"), "enter a number greater than 0",
                            PERIODS),
     "a short spectrum": target(
         table("period [s],horizontal [g]", SPECTRUM[:-1]), r"\(periods from 0\.03 to 3\.33 s\)",
         PERIODS,
     ),
-    "a curve as a PDF": curve(b"%PDF-1.7\n\0\1", "a PDF; give its numbers as text or CSV", RATES),
+    "a curve as a PDF": curve(b"%PDF-1.7\n\0\1", "a PDF; export its numbers as text or CSV", RATES),
     "a spectrum in a zip": target(zipped(PERIODS), "unpack it", PERIODS),
     "a workbook of two sheets": target(
-        of_two_sheets(), r"give table\.xlsx!Sheet, one of 'Sheet'", then={"sheet": "!Sheet"},
+        of_two_sheets(), r"enter table\.xlsx!Sheet, one of 'Sheet'", then={"sheet": "!Sheet"},
         name="table.xlsx",
     ),
     "a sheet that is not there": target(
-        of_two_sheets(), "give one of 'Sheet'", given={"sheet": "!Shet"},
+        of_two_sheets(), "enter one of 'Sheet'", given={"sheet": "!Shet"},
         then={"sheet": "!Sheet"}, name="table.xlsx",
     ),
     "a map of easting and northing": ballast(
-        table("E,N,blocks", BLOCKS), "give x, y and blocks", MAP
+        table("E,N,blocks", BLOCKS), "enter x, y and blocks", MAP
     ),
     "a map in feet with --units m": ballast(
-        table("x [ft],y [ft],blocks", BLOCKS), "another unit; give that of x and y",
+        table("x [ft],y [ft],blocks", BLOCKS), "another unit; enter that of x and y",
         given={"unit_m": 1.0},
     ),
-    "half a block": ballast(MAP + "1.0,1.0,0.5\n", "give a whole number from 0 to", MAP),
-    "a place that is no number": ballast(MAP + "?,1.0,0\n", "give a number", MAP),
+    "half a block": ballast(MAP + "1.0,1.0,0.5\n", "enter a whole number from 0 to", MAP),
+    "a place that is no number": ballast(MAP + "?,1.0,0\n", "enter a number", MAP),
     "a map in an old code page": ballast(
         ("# entwässert\n" + MAP).encode("latin-1"), "save it as one", MAP.encode("utf-16")
     ),

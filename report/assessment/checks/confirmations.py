@@ -69,7 +69,7 @@ def _dates(data: ProjectInput) -> Iterator[Check]:
         yield condition(
             id="dates",
             title=f"Date of the {noun}",
-            found=f"{date}" + (f", given before these inputs changed: {sheets}" if sheets else ""),
+            found=f"{date}" + (f", dated before these inputs changed: {sheets}" if sheets else ""),
             limit=f"not later than {issued}, and for these inputs",
             clause="plan check",
             is_satisfied=not (is_later or sheets),

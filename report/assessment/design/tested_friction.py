@@ -62,7 +62,7 @@ def basis_words(data: ProjectInput, array: Array) -> str:
     where = _where(tests, data.us_first)
     if _is_fit(array.friction, tests):
         return f"as tested: the fit of the {tests.surface} runs {where}"
-    return f"entered, {_how_far(array.friction, tests)} the tests {where}"
+    return f"entered, {_how_far(array.friction, tests)} the tested values {where}"
 
 
 def _is_fit(law: Friction, tests: Series) -> bool:

@@ -69,7 +69,7 @@ def missing_rows(
         *written,
         *renewed,
         *_differing(pairs, us_first),
-        *(f"not added: {near.names}, {_size(near.gap_m, us_first)}; correct the plan, or give the "
+        *(f"not added: {near.names}, {_size(near.gap_m, us_first)}; correct the plan, or enter the "
           "roof edge as an object" for near in missing if not _has_row(near)),
         f"{numbered(len(gaps), 'clearance')} added{f', {len(renewed)} renewed' if renewed else ''},"
         f" {len(data.clearances) - len(renewed)} kept; reach"

@@ -22,8 +22,8 @@ motion.add_section("Commands", "report.cli.commands.suite:suite")
 
 _per_line = click.option("--values-per-line", type=click.IntRange(1), help="The values follow each "
                          "other across the lines, so many in each but the last.")  # fmt: skip
-_response = click.option("--response", default="", metavar="STATION.xml|NUMBER", help="Of raw "
-                         "counts, as in miniSEED: StationXML, or the counts per m/s2.")  # fmt: skip
+_response = click.option("--response", default="", metavar="STATION.xml|NUMBER", help="Response"
+                         " of raw counts (miniSEED): StationXML, or counts per m/s2.")  # fmt: skip
 _channel = click.option("--channel", default="", metavar="NAME",
                         help="One channel: its name or its number in the file.")  # fmt: skip
 
@@ -110,7 +110,7 @@ def slide(ppa_g: float | None, factor: float | None, **options: Any) -> None:
     If a file has several channels, give RECORD as "FILE | CHANNEL" (name or number).
     """
     if ppa_g is not None and factor is not None:
-        raise click.UsageError("give --ppa-g or --factor, not both")
+        raise click.UsageError("use --ppa-g or --factor, not both")
     from report.cli.one_block import slide_block
 
     slide_block(ppa_g=ppa_g, factor=factor, **options)

@@ -22,7 +22,7 @@ from report.cli.option_types import AS_JSON, FAIL_ON_NG, QUIET, SOURCE
 def new(folder: Path, units: str, example: bool, study: bool) -> None:
     """Write a blank DIR/input.xlsx and the folder DIR/records/ for the motions."""
     if example and study:
-        raise click.UsageError("give --example or --study, not both; projects/study is an example")
+        raise click.UsageError("use --example or --study, not both; projects/study is an example")
     from report.cli.new_project import new_project
 
     new_project(folder, units, is_example=example, is_study=study)

@@ -40,8 +40,8 @@ def _repeated(inputs: Inputs, where: Where) -> Iterator[Finding]:
             report = _report(inputs, row).casefold()
             runs.append((place, (report, row["surface"], row.get("velocity_mps"), number)))
     for place, (_, surface, _, number), first in repeated(runs):
-        text = f"run is {number}, {surface}, already given at {where(first)}"
-        yield Finding.error(place, text, "give another number")
+        text = f"run is {number}, {surface}, already entered at {where(first)}"
+        yield Finding.error(place, text, "enter another number")
 
 
 def _tested(inputs: Inputs) -> tuple[Series, ...]:
@@ -80,12 +80,12 @@ def _beyond(index: int, law: Friction, tests: Series, address: str) -> Iterator[
         says = f"averages {mean:.3g} at the tested velocities" if by_velocity else f"is {mean:g}"
         text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
         runs = f" of {len(tests.runs)} from {address})"
-        remedy = "reduce it" if by_velocity else f"give {tested:.3g} or less"
+        remedy = "reduce it" if by_velocity else f"enter {tested:.3g} or less"
         yield Finding.error(Place("arrays", index, "mu"), text + runs, remedy)
     if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
         static = f"{tests.static_mean:.3g}"
         text = f"static friction is {law.mu_static:g}; the tests give {static} ({tests.surface})"
-        yield Finding.error(Place("arrays", index, "mu_static"), text, f"give {static} or less")
+        yield Finding.error(Place("arrays", index, "mu_static"), text, f"enter {static} or less")
 
 
 def link_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -93,7 +93,7 @@ def link_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
     arrays = {name: place for place, name in column(inputs, ("arrays",), "id")}
     named = list(column(inputs, ("links",), "array"))
     for place, name, first in repeated(named):
-        fault = f"array is '{name}', already given at {where(first)}"
+        fault = f"array is '{name}', already entered at {where(first)}"
         yield Finding.error(place, fault, "delete one")
     for place, name in named:
         # A name that is unknown has an error of its own.
@@ -115,11 +115,11 @@ def _blocks(
 ) -> Iterator[Finding]:
     mus = coefficients(text)
     if not mus:
-        remedy = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45"
+        remedy = "enter 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45"
         yield Finding.error(place, f"block friction is '{text}'", f"{remedy}, 0.50")
         return
     mu = inputs["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
         side, address = "above" if mu < min(mus) else "below", where(home._replace(field="mu"))
         fault = f"block friction is '{text}', all {side} the {mu:g} at {address}"
-        yield Finding.error(place, fault, "give a range that includes it, or change it")
+        yield Finding.error(place, fault, "enter a range that includes it, or change it")

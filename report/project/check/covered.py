@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
 from report.project.model import ProjectInput
 from report.project.model.array import WEIGHT_PARTS
-from report.project.model.choices import ClearanceSource, Frozen
+from report.project.model.choices import FORMER_CHOICES, ClearanceSource, Frozen
 from report.project.model.input_rows import Place
 from report.project.model.shapes import SIDES
 from report.project.workbook import SECTION, SECTIONS
@@ -22,6 +22,8 @@ from report.project.workbook.earlier_workbooks import ORDERS
 from report.text.grouping import grouped_by
 
 _LETTERS = 6  # of a hash
+# Choices are hashed by the words of 0.3.0, with which confirmations are on record.
+_HASHED = {choice: former for former, choice in FORMER_CHOICES.items()}
 # Fields by section.
 _Covers = Mapping[str, Set[str]]
 
@@ -82,7 +84,7 @@ def outdated(data: ProjectInput, records: Sequence[str]) -> ProjectInput:
         # A record is of its own version, with which it differs least.
         sheets = min(_changed(then, hashes), _changed(then, earlier), key=len)
         if recorded and sheets:
-            changed[place.section] = f"sheet{'s' * (len(sheets) > 1)} {', '.join(sheets)}"
+            changed[place.section] = f"worksheet{'s' * (len(sheets) > 1)} {', '.join(sheets)}"
     return data.model_copy(update={"changed_sheets": tuple(changed.items())})
 
 
@@ -147,6 +149,6 @@ def _line(key: str, row: Frozen, fields: Sequence[str]) -> str:
     values = row.model_dump(include=set(fields), exclude_defaults=True)
     order = {name: number for number, name in enumerate(ORDERS.get(key, ()))}
     return "; ".join(
-        f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {value}"
+        f"{name} {value:.9g}" if isinstance(value, float) else f"{name} {_HASHED.get(value, value)}"
         for name, value in sorted(values.items(), key=lambda item: order.get(item[0], len(order)))
     )

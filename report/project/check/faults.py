@@ -70,7 +70,7 @@ def faults(inputs: Inputs, where: Where) -> list[Finding]:
 
 def _tables(inputs: Inputs, where: Where) -> Iterator[Finding]:
     if not inputs["arrays"]:
-        yield Finding.error(Place("arrays"), "no array is given", "fill in at least one row")
+        yield Finding.error(Place("arrays"), "no array is entered", "fill in at least one row")
 
 
 def _ids(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -82,7 +82,7 @@ def _ids(inputs: Inputs, where: Where) -> Iterator[Finding]:
                 foreign_letters(value),
             )
             yield Finding.error(
-                place, text + (f"; {foreign}" if foreign else ""), "give a unique ID"
+                place, text + (f"; {foreign}" if foreign else ""), "enter a unique ID"
             )
 
 
@@ -98,7 +98,7 @@ def _slope(index: int, row: InputRow) -> Iterator[Finding]:
         return
     # 45 degrees in each unit.
     limit = {SlopeUnit.DEGREES: "45", SlopeUnit.PERCENT: "100", SlopeUnit.IN_PER_12: "12"}[unit]
-    remedy = f"give 0 to less than {limit} {unit}"
+    remedy = f"enter 0 to less than {limit} {unit}"
     yield Finding.error(Place("arrays", index, "slope_value"), f"slope is {value:g} {unit}", remedy)
 
 
@@ -109,7 +109,7 @@ def _friction(index: int, row: InputRow) -> Iterator[Finding]:
     mu, static = row["mu"], row["mu_static"]
     if static is not None and static < mu:
         text = f"static friction is {static:g}"
-        remedy = f"give the friction coefficient, {mu:g}, or more"
+        remedy = f"enter the friction coefficient, {mu:g}, or more"
         yield Finding.error(Place("arrays", index, "mu_static"), text, remedy)
 
 
@@ -129,7 +129,7 @@ def _unknown(inputs: Inputs, where: Where) -> Iterator[Finding]:
 def _smaller_events(inputs: Inputs, where: Where) -> Iterator[Finding]:
     for place, text in column(inputs, ("options",), "smaller_events"):
         if text and not factors(text):
-            remedy = "give up to 20 factors with decimal points, above 0.0 and up to 1.0"
+            remedy = "enter up to 20 factors with decimal points, above 0.0 and up to 1.0"
             fault = f"smaller events is '{cut(text)}'"
             yield Finding.error(place, fault, f"{remedy}, such as 0.50, 0.25")
 
@@ -140,7 +140,7 @@ MOST_IN_LETTER = 6
 def _letter_edition(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield what the two sheets of the edition letter have no place for."""
     n_arrays = len(inputs["arrays"])
-    remedy = "choose plan check or complete, or delete what the letter does not have"
+    remedy = "choose plan check or complete, or delete what the letter cannot contain"
     for place, edition in column(inputs, ("options",), "package_edition"):
         if edition != PackageEdition.LETTER:
             continue
@@ -148,7 +148,7 @@ def _letter_edition(inputs: Inputs, where: Where) -> Iterator[Finding]:
             fault = f"edition is letter with {n_arrays} arrays, of which it has at most six"
             yield Finding.error(place, fault, "choose plan check or complete")
         if inputs["motions"]:
-            fault = "edition is letter, which is not by analysis, and motions are given"
+            fault = "edition is letter, which is not by analysis, and motions are listed"
             yield Finding.error(place, fault, remedy)
         if inputs["overrides"]:
             yield Finding.error(place, "edition is letter, and provisions are overridden", remedy)
@@ -170,14 +170,14 @@ def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:
             fault = f"provision is '{names[key]}', which {rules.name} does not have"
             yield Finding.error(place, fault, "delete the row")
     for place, key, first in repeated(cell for cell in keys if cell[1] in names):
-        fault = f"provision is '{names[key]}', already given at {where(first)}"
+        fault = f"provision is '{names[key]}', already entered at {where(first)}"
         yield Finding.error(place, fault, "delete one")
     for place, value in column(inputs, ("overrides",), "value"):
         key = inputs["overrides"][place.row].get("provision", "")
         allowed = ALLOWED.get(key)
         if allowed and not allowed.has(value):
             fault = f"value is {value:g} for the {ALLOWED[key].meaning}"
-            yield Finding.error(place, fault, f"give {allowed.words}")
+            yield Finding.error(place, fault, f"enter {allowed.words}")
 
 
 # Slope of an array from which it is refused.
@@ -200,13 +200,13 @@ def _has_no_outline(row: InputRow, inputs: Inputs) -> bool:
     return "id" in row and all(vertex.get("name") != row["id"] for vertex in inputs["outlines"])
 
 
-_OR_NONE = "give all four sides of the rectangle, or none"
-_OR_OUTLINE = "give all four sides of the rectangle, or an outline on the Outlines worksheet"
-_LAW = "give high-velocity friction and friction rate, or neither"
-_CODE = "give building code and year, or neither"
-_BOTH = "give latitude and longitude, or neither"
-_CONFIRMED = "give who confirmed the drawing distances and when, or neither"
-_ALL_FIVE = "give all five cells of the confirmation, or none"
+_OR_NONE = "enter all four sides of the rectangle, or none"
+_OR_OUTLINE = "enter all four sides of the rectangle, or an outline on the Outlines worksheet"
+_LAW = "enter high-velocity friction and friction rate, or neither"
+_CODE = "enter building code and year, or neither"
+_BOTH = "enter latitude and longitude, or neither"
+_CONFIRMED = "enter who confirmed the drawing distances and when, or neither"
+_ALL_FIVE = "enter all five cells of the confirmation, or none"
 _CONFIRMATION = ("by", "date", "rule_set", "edition", "code")
 
 # Optional cells that are required where others say so: when, and what would do.
@@ -222,19 +222,19 @@ REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
     **{("arrays", side): (_has_no_outline, _OR_OUTLINE) for side in SIDES},
     **{("objects", side): (_filled(*SIDES), _OR_NONE) for side in SIDES},
     ("objects", "height_m"): (
-        _chosen("kind", ObjectKind.EDGE_WITH_PARAPET), "give the parapet's height above the roof"),
+        _chosen("kind", ObjectKind.EDGE_WITH_PARAPET), "enter the parapet's height above the roof"),
     ("arrays", "weight_n"): (
         # A part that could not be read is absent: then nothing is said of the weight.
         lambda row, _: row.keys() >= {*WEIGHT_PARTS} and None in map(row.get, WEIGHT_PARTS),
-        "give it, or modules, module weight and ballast weight"),
+        "enter it, or modules, module weight and ballast weight"),
     ("arrays", "mu_fast"): (_filled("mu_rate_s_per_m"), _LAW),
     ("arrays", "mu_rate_s_per_m"): (_filled("mu_fast"), _LAW),
     ("motions", "scale_value"): (
-        _chosen("scaling", Scaling.FACTOR, Scaling.PPA), "give the factor, or the PPA in g"),
+        _chosen("scaling", Scaling.FACTOR, Scaling.PPA), "enter the factor, or the PPA in g"),
     ("building", "period_s"): (
         lambda row, inputs: row.get("structure", "") is None
         and any(motion.get("recorded_at") is RecordedAt.GROUND for motion in inputs["motions"]),
-        "give it, or a structure type: a motion is recorded at the ground"),
+        "enter it, or a structure type: a motion is recorded at the ground"),
 }  # fmt: skip
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from report.project.model import ProjectInput
+from report.project.model.choices import FORMER_CHOICES
 from report.project.model.finding import Finding, note
 from report.project.model.input_rows import Place, suggestion
 from report.project.workbook import SECTIONS
@@ -84,7 +85,9 @@ def acknowledged(data: ProjectInput, findings: Iterable[Finding]) -> tuple[Findi
 
 
 def _key(name: str) -> str:
-    return " ".join(name.split()).casefold()
+    *words, last = name.casefold().split()
+    # The direction of a clearance, also by its word in earlier workbooks.
+    return " ".join([*words, FORMER_CHOICES.get(last, last)])
 
 
 def _idle(data: ProjectInput, findings: Iterable[Finding]) -> Iterator[Finding]:
@@ -92,6 +95,6 @@ def _idle(data: ProjectInput, findings: Iterable[Finding]) -> Iterator[Finding]:
     known = {_key(name) for name in ids}
     for index, row in enumerate(data.acknowledged):
         if _key(row.warning) not in known:
-            text = f"warning is '{row.warning}', which is not entered; "
+            text = f"warning is '{row.warning}', which is not among the warnings; "
             text += suggestion(row.warning, ids) if ids else "delete the row"
             yield note(Place("acknowledged", index, "warning"), text)

@@ -48,7 +48,7 @@ def _same_component(index: int, row: InputRow) -> Iterator[Finding]:
         first = seen.setdefault(" ".join(row[field].split()), label)
         if first != label:
             text = f"{label} record is '{row[field]}', the same as the {first} record"
-            yield Finding.error(Place("motions", index, field), text, "give another record")
+            yield Finding.error(Place("motions", index, field), text, "use another record")
 
 
 def _scale_value(index: int, row: InputRow) -> Iterator[Finding]:
@@ -62,12 +62,12 @@ def _scale_value(index: int, row: InputRow) -> Iterator[Finding]:
 def _processing(index: int, row: InputRow) -> Iterator[Finding]:
     start, end = row.get("from_s"), row.get("to_s")
     if end is not None and end <= (start or 0.0):
-        remedy = f"give {(start or 0.0) + SHORTEST_S:g} s or more"
+        remedy = f"enter {(start or 0.0) + SHORTEST_S:g} s or more"
         yield Finding.error(Place("motions", index, "to_s"), f"end time is {end:g} s", remedy)
     high, low = row.get("highpass_hz"), row.get("lowpass_hz")
     if high is not None and low is not None and low <= high:
         text = f"low-pass corner is {low:g} Hz"
-        remedy = f"give more than the high-pass corner, {high:g} Hz"
+        remedy = f"enter more than the high-pass corner, {high:g} Hz"
         yield Finding.error(Place("motions", index, "lowpass_hz"), text, remedy)
 
 
@@ -77,7 +77,7 @@ def _building(inputs: Inputs, where: Where) -> Iterator[Finding]:
         # The first mode has the longest period.
         if second is not None and (first is None or second > first):
             longest = "period T1 as well" if first is None else f"at most period T1, {first:g} s"
-            text, remedy = f"period T2 is {second:g} s", f"give {longest}, or leave it blank"
+            text, remedy = f"period T2 is {second:g} s", f"enter {longest}, or leave it blank"
             yield Finding.error(Place("building", 0, "period_2_s"), text, remedy)
     # Only a ground motion passes through the model of the building.
     grounds = (row.get("recorded_at") is RecordedAt.GROUND for row in inputs["motions"])
@@ -87,26 +87,26 @@ def _building(inputs: Inputs, where: Where) -> Iterator[Finding]:
             text = (
                 f"number of stories is {count}, more than the {MOST_STORIES} of the building model"
             )
-            yield Finding.error(Place("site", 0, "stories"), text, "give roof motions")
+            yield Finding.error(Place("site", 0, "stories"), text, "use roof motions")
 
 
 def _own_spectrum(inputs: Inputs, where: Where) -> Iterator[Finding]:
     rows = inputs["spectrum"]
     if len(rows) == 1:
-        yield Finding.error(Place("spectrum"), "one row is given", "give at least two, or none")
+        yield Finding.error(Place("spectrum"), "one row is entered", "enter at least two, or none")
     periods = [(row["period_s"], index) for index, row in enumerate(rows) if "period_s" in row]
     for (before, first), (after, second) in pairwise(sorted(periods)):
         # The spectrum has no line between two points at one period.
         if after - before <= 1e-9 * after:
             address = where(Place("spectrum", first, "period_s"))
-            text = f"period is {after:g} s, already given at {address}"
+            text = f"period is {after:g} s, already entered at {address}"
             yield Finding.error(
-                Place("spectrum", second, "period_s"), text, "give each period once"
+                Place("spectrum", second, "period_s"), text, "enter each period once"
             )
     verticals = [row["vertical_g"] is None for row in rows if "vertical_g" in row]
     if any(verticals) and not all(verticals):
         index = next(i for i, row in enumerate(rows) if row.get("vertical_g", 0.0) is None)
-        remedy = "give it in every row, or in none"
+        remedy = "enter it in every row, or in none"
         yield Finding.error(Place("spectrum", index, "vertical_g"), "vertical is missing", remedy)
 
 
@@ -117,7 +117,7 @@ def _scaled_to_target(inputs: Inputs, where: Where) -> Iterator[Finding]:
         return
     if end <= start:
         text = f"longest scaling period is {end:g} s"
-        remedy = f"give more than the shortest, {start:g} s"
+        remedy = f"enter more than the shortest, {start:g} s"
         yield Finding.error(Place("target", 0, "to_s"), text, remedy)
         return
     scaled = [i for i, m in enumerate(inputs["motions"]) if m.get("scaling") is Scaling.TARGET]
@@ -171,5 +171,5 @@ def _design_spectrum(inputs: Inputs, ground: list[int], where: Where) -> Iterato
     # The design spectrum falls as 1/T between T_S and T_L.
     if t_s is not None and t_l_s is not None and t_l_s <= t_s:
         text = f"long-period transition T_L is {t_l_s:g} s"
-        remedy = f"give more than T_S = S_D1/S_DS = {digits_up(t_s, 3)} s"
+        remedy = f"enter more than T_S = S_D1/S_DS = {digits_up(t_s, 3)} s"
         yield Finding.error(Place("target", 0, "t_l_s"), text, remedy)

@@ -61,7 +61,7 @@ def _rectangles(inputs: Inputs, where: Where) -> Iterator[Finding]:
                 pair(value, Quantity.PLAN, us_first(inputs)) for value in (high, low)
             )
             address = where(place._replace(field=first))
-            remedy = f"give more than {_label(first)} in {address}, {low_text}"
+            remedy = f"enter more than {_label(first)} in {address}, {low_text}"
             fault = f"{_label(last)} is {high_text}"
             yield Finding.error(place._replace(field=last), fault, remedy)
 
@@ -78,7 +78,7 @@ def _outline_rows(inputs: Inputs, where: Where) -> Iterator[Finding]:
             yield Finding.error(outline.place, text, suggestion(outline.name, [*ids, ROOF]))
         if outline.name == ROOF and ROOF in map(str.casefold, ids):
             text = "outline of 'roof', which is also the ID of an array or object"
-            yield Finding.error(outline.place, text, "give that another ID")
+            yield Finding.error(outline.place, text, "enter another ID for it")
         yield from _ring_faults(outline, us_first(inputs))
     yield from _scattered(inputs, where)
 
@@ -91,12 +91,12 @@ def _ring_faults(outline: OutlineRows, is_us: bool) -> Iterator[Finding]:
     count = len(set(points))
     if count < LEAST_VERTICES:
         text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
-        yield Finding.error(outline.place, text, f"give at least {LEAST_VERTICES}, one to a row")
+        yield Finding.error(outline.place, text, f"enter at least {LEAST_VERTICES}, one to a row")
         return
     point = crossing(points)
     if point is not None:
         text = f"outline of {outline.name} touches or crosses itself near {spot(point, is_us)}"
-        yield Finding.error(outline.place, text, "give its vertices in order, none of them twice")
+        yield Finding.error(outline.place, text, "enter its vertices in order, none of them twice")
 
 
 def spot(point: Point, is_us: bool) -> str:
@@ -128,7 +128,7 @@ def _doubled(inputs: Inputs, where: Where) -> Iterator[Finding]:
         side = next((side for side in SIDES if row.get(side) is not None), None)
         if name in outlines and side is not None:
             address = where(outlines[name].place)
-            text = f"{_label(side)} is given, and {name} has an outline at {address}"
+            text = f"{_label(side)} is entered, and {name} has an outline at {address}"
             remedy = "leave the four sides blank, or delete the outline"
             yield Finding.error(place._replace(field=side), text, remedy)
 
@@ -166,7 +166,7 @@ def _beyond(
         entered, limit = (pair(m, Quantity.PLAN, us_first(inputs)) for m in (value, edge))
         inside, address = "more" if is_low else "less", where(Place("roof", 0, side))
         text = f"{_label(side)} is {entered}, outside the roof"
-        remedy = f"give {limit} or {inside}, or correct the outline at {address}"
+        remedy = f"enter {limit} or {inside}, or correct the outline at {address}"
         yield Finding.error(Place("arrays", index, side), text, remedy)
 
 
@@ -246,7 +246,7 @@ def _room(
     array, neighbor, provided = row.get("array"), row.get("object"), row.get("provided_m")
     if array is not None and array == neighbor:
         text = f"object is '{neighbor}', the array itself"
-        remedy = "give an object or another array"
+        remedy = "enter an object or another array"
         yield Finding.error(Place("clearances", index, "object"), text, remedy)
         return
     a, b = (shapes.get(str(name)) for name in (array, neighbor))

@@ -182,7 +182,9 @@ def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:
         pair(value, Quantity.PRESSURE, us_first)
         for value in (pressure, LEAST_PRESSURE_PA, MOST_PRESSURE_PA)
     )
-    text = f"weight is {weight}, {per_area} on the plan area; {low} to {high} is usual: correct the"
+    text = (
+        f"weight is {weight}, {per_area} on the plan area; {low} to {high} is typical: correct the"
+    )
     yield warning(f"weight {array.id}", place, f"{text} weight, its unit, or the plan")
 
 
@@ -203,7 +205,7 @@ def _overrides(data: ProjectInput) -> Iterator[Finding]:
         if not expected.has(row.value):
             text = (
                 f"value is {row.value:g} for the {ALLOWED[row.provision].meaning};"
-                f" {expected.span} is usual: correct the value or its unit"
+                f" {expected.span} is typical: correct the value or its unit"
             )
             yield warning(f"override {row.provision}", Place("overrides", index, "value"), text)
 
@@ -301,7 +303,7 @@ def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us
     # it.
     name = " ".join(f"usual {entry.spoken} {_named(row)}".split())
     place = Place(section.key, index, entry.name)
-    return warning(name, place, f"{text} is usual: correct the value or its unit")
+    return warning(name, place, f"{text} is typical: correct the value or its unit")
 
 
 def _named(row: Frozen) -> str:

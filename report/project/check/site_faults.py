@@ -58,7 +58,7 @@ def _importance(row: InputRow) -> Iterator[Finding]:
     risk_category, i_e = row.get("risk_category"), row.get("i_e")
     if risk_category is None or i_e is None or i_e >= LEAST_I_E[risk_category]:
         return
-    remedy = f"give at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}"
+    remedy = f"enter at least {LEAST_I_E[risk_category]:g} for risk category {risk_category}"
     yield _fault("i_e", f"importance factor I_e is {i_e:g}", remedy)
 
 
@@ -74,7 +74,7 @@ def _edition(row: InputRow, edition: Edition) -> Iterator[Finding]:
     for field, label, instead in (("f_a", "F_a", "S_MS or S_DS"), ("f_v", "F_v", "S_M1 or S_D1")):
         if row.get(field) is not None:
             text = f"{label} is {row[field]:g}, but {edition.name} has no site coefficients"
-            remedy = f"leave it blank and give {instead} from a hazard tool"
+            remedy = f"leave it blank and enter {instead} from a hazard tool"
             yield _fault(field, text, remedy)
 
 
@@ -86,7 +86,7 @@ def _missing_s_ds(row: InputRow, edition: Edition) -> Iterator[Finding]:
     missing = [n for n in ("s_s_g", "f_a") if row[n] is None] if has_coefficients else []
     field = missing[0] if len(missing) == 1 else "s_ds_g"
     label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
-    remedy = "give S_DS, S_MS, or both S_S and F_a" if has_coefficients else "give S_DS or S_MS"
+    remedy = "enter S_DS, S_MS, or both S_S and F_a" if has_coefficients else "enter S_DS or S_MS"
     yield _fault(field, f"{label} is missing", remedy)
 
 
@@ -120,7 +120,7 @@ def _site_class(row: InputRow, edition: Edition) -> Iterator[Finding]:
     # BC, CD and DE came with ASCE 7-22.
     if edition.has_site_coefficients and site_class is not None and site_class not in F_A.rows:
         text = f"site class is '{site_class}', which {edition.name} does not have"
-        yield _fault("site_class", text, f"give one of {', '.join(F_A.rows)}")
+        yield _fault("site_class", text, f"enter one of {', '.join(F_A.rows)}")
 
 
 def _below_table(
@@ -134,17 +134,19 @@ def _below_table(
     if mapped_g is None or coefficient not in row or math.isnan(tabulated):
         return
     of_class = f"for site class '{site_class_or_default(row['site_class'])}'"
-    of_class += "" if row["site_class"] else ", assumed because none is given"
+    of_class += "" if row["site_class"] else ", assumed because none is entered"
     if entered is not None:
         if entered < tabulated - ROUNDING_OF_COEFFICIENTS:
-            remedy = f"give at least {tabulated:.4g} {of_class} and {symbol} of {mapped_g:g} g in"
+            remedy = f"enter at least {tabulated:.4g} {of_class} and {symbol} of {mapped_g:g} g in"
             address = where(Place("site", 0, mapped))
             yield _or_study(coefficient, f"{factor} is {entered:g}", f"{remedy} {address}", table)
         return
     for (name, label), share, words in ((maximum, 1.0, ""), (design, 2.0 / 3.0, "2/3 ")):
         value, least_g = row.get(name), share * tabulated * mapped_g
         if value is not None and value < least_g - AGREES_G:
-            remedy = f"give at least {math.ceil(1e3 * least_g) / 1e3:g} g, which is {words}{factor}"
+            remedy = (
+                f"enter at least {math.ceil(1e3 * least_g) / 1e3:g} g, which is {words}{factor}"
+            )
             remedy += f" {symbol} with {factor} of {tabulated:.4g} {of_class}"
             yield _or_study(name, f"{label} is {value:g} g", remedy, table)
 
@@ -175,7 +177,7 @@ def _sdc(row: InputRow) -> Iterator[Finding]:
     sdc, possible = row["sdc"], categories(row)
     if sdc is None:
         missing = " and ".join(category_lacks(row))
-        yield _fault("sdc", f"{_SDC} is missing", f"choose A, B, C, D, E or F, or give {missing}")
+        yield _fault("sdc", f"{_SDC} is missing", f"choose A, B, C, D, E or F, or enter {missing}")
         return
     # ASCE 7 11.6: the more severe of two tables; S_1 from 0.75 g on gives E, or F in category IV.
     reasons = (

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -41,6 +41,26 @@ def decimals(text: str) -> tuple[float, ...]:
     # Each needs a decimal point, so that a decimal comma never splits one number into two.
     parts = [part.strip() for part in text.split(",")]
     return tuple(map(float, parts)) if all(map(_DECIMAL.fullmatch, parts)) else ()
+
+
+# Words of earlier workbooks, with those that now stand for them.
+FORMER_CHOICES = {
+    "unlike array": "array of different construction",
+    "down": "downslope",
+    "up": "upslope",
+    "across": "cross-slope",
+    "by size": "automatic",
+    "rule set": "per rule set",
+}
+
+
+class _Choice(StrEnum):
+    """A choice that is also read by its word in earlier workbooks."""
+
+    @classmethod
+    def _missing_(cls, value: object) -> Self | None:
+        word = FORMER_CHOICES.get(str(value))
+        return next((choice for choice in cls if choice.value == word), None)
 
 
 class YesNo(StrEnum):
@@ -137,39 +157,34 @@ class SlopeUnit(StrEnum):
         return named.get(str(value))
 
 
-class LayerKind(StrEnum):
+class LayerKind(_Choice):
     """What the closed lines on a layer of a roof drawing are."""
 
     ARRAY = "array"
     FIXED = "fixed object"
-    UNLIKE_ARRAY = "unlike array"
+    UNLIKE_ARRAY = "array of different construction"
     EDGE_WITH_PARAPET = "edge with parapet"
     EDGE_WITHOUT_PARAPET = "edge without parapet"
     ROOF = "roof"
     NOT_READ = "not read"
 
 
-class ObjectKind(StrEnum):
+class ObjectKind(_Choice):
     """What an array could strike or fall from."""
 
     FIXED = "fixed object"
-    UNLIKE_ARRAY = "unlike array"
+    UNLIKE_ARRAY = "array of different construction"
     EDGE_WITH_PARAPET = "edge with parapet"
     EDGE_WITHOUT_PARAPET = "edge without parapet"
 
 
-class Direction(StrEnum):
-    """Direction of a clearance from the array: downslope, upslope, cross-slope, or any."""
+class Direction(_Choice):
+    """Direction of a clearance from the array."""
 
-    DOWN = "down"
-    UP = "up"
-    ACROSS = "across"
+    DOWN = "downslope"
+    UP = "upslope"
+    ACROSS = "cross-slope"
     ANY = "any"
-
-    @classmethod
-    def _missing_(cls, value: object) -> Direction | None:
-        named = {"downslope": cls.DOWN, "upslope": cls.UP, "cross-slope": cls.ACROSS}
-        return named.get(str(value))
 
 
 class ClearanceSource(StrEnum):
@@ -247,21 +262,21 @@ class PackageEdition(StrEnum):
     LETTER = "letter"
 
 
-class PlanPaper(StrEnum):
+class PlanPaper(_Choice):
     """Paper of the roof plan; the rest of the package is on Letter, or with A4 and A3 on A4."""
 
-    BY_SIZE = "by size"
+    BY_SIZE = "automatic"
     LETTER = "Letter"
     TABLOID = "11 x 17"
     A4 = "A4"
     A3 = "A3"
 
 
-class Statistic(StrEnum):
+class Statistic(_Choice):
     """Statistic that gives the design value from the peaks of all motions."""
 
     _ignore_ = "_basis"
-    RULE_SET = "rule set"
+    RULE_SET = "per rule set"
     for _basis in Basis:
         if _basis is not Basis.TOO_FEW:
             vars()[_basis.name] = _basis.value

@@ -61,4 +61,4 @@ def suggestion(value: str, ids: Collection[str]) -> str:
     if close:
         return f"did you mean '{close}'?"
     names = ", ".join(list(ids)[:8])
-    return f"give one of {names}" if names else "add it there first"
+    return f"enter one of {names}" if names else "add it there first"

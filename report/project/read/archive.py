@@ -44,9 +44,9 @@ OTHER_KINDS = {
     ".xlsm": "a workbook with macros",
     ".xlsb": "a binary Excel workbook",
     ".xltx": "an Excel template",
-    ".ods": "an OpenDocument sheet",
+    ".ods": "an OpenDocument spreadsheet",
     ".csv": _CSV,
-    ".numbers": "a Numbers sheet",
+    ".numbers": "a Numbers spreadsheet",
 }
 _WORKBOOK = "xl/workbook.xml"
 _RELATIONS = "xl/_rels/workbook.xml.rels"
@@ -110,7 +110,7 @@ def book_of(path: Path, data: bytes) -> OpenBook:
         scans = _scans_by_title(archive, parts)
         book = _load(data)
     if book.sheetnames != list(scans):
-        raise InputError(f"its sheets cannot all be read; {REOPEN}")
+        raise InputError(f"its worksheets cannot all be read; {REOPEN}")
     sha256 = hashlib.sha256(data).hexdigest()
     return OpenBook(
         path=path,
@@ -131,10 +131,10 @@ def located(path: Path) -> Path:
         path = path / "input.xlsx"
     if not path.exists():
         check_length(path)
-        remedy = "give a workbook, or a folder that holds input.xlsx"
+        remedy = "use a workbook, or a folder that holds input.xlsx"
         raise InputError(f"no such file; {asked or _workbook_in(path.parent) or remedy}")
     if not path.is_file():
-        raise InputError("not a file; give a workbook, or a folder that holds input.xlsx")
+        raise InputError("not a file; use a workbook, or a folder that holds input.xlsx")
     if path.suffix.lower() != ".xlsx":
         kind = OTHER_KINDS.get(path.suffix.lower(), "not a workbook file name")
         raise InputError(f"{kind} ({path.suffix or 'no extension'}); {SAVE_AS}")
@@ -173,7 +173,7 @@ def zip_of(content: IO[bytes], damaged: str) -> zipfile.ZipFile:
     content.seek(0)
     count = content.read().count(b"PK\x01\x02")
     if count > MAX_MEMBERS:
-        raise InputError(f"has {count:,} parts, more than {MAX_MEMBERS:,}; give a smaller one")
+        raise InputError(f"has {count:,} parts, more than {MAX_MEMBERS:,}; use a smaller one")
     try:
         return zipfile.ZipFile(content)
     except (zipfile.BadZipFile, ArithmeticError, ValueError, RuntimeError, OSError) as error:
@@ -204,7 +204,7 @@ def _check_kind(archive: zipfile.ZipFile) -> None:
     if "xl/workbook.bin" in names:
         raise InputError(f"a binary Excel workbook (.xlsb) by its content; {SAVE_AS}")
     if "mimetype" in names and "content.xml" in names:
-        raise InputError(f"an OpenDocument sheet (.ods) by its content; {SAVE_AS}")
+        raise InputError(f"an OpenDocument spreadsheet (.ods) by its content; {SAVE_AS}")
     if not {"[Content_Types].xml", _WORKBOOK} <= names:
         raise InputError(f"a zip archive, but not a workbook; {SAVE_AS}")
     # Its names are others, which openpyxl does not know.
@@ -230,7 +230,7 @@ def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict
         # openpyxl would skip it, and its rows would be lost without a word.
         if part not in scans:
             raise InputError(
-                f"sheet '{title}': its part {part or '(no name)'} is missing; {REOPEN}"
+                f"worksheet '{title}': its part {part or '(no name)'} is missing; {REOPEN}"
             )
         if scans[part].is_beyond:
             raise InputError(f"damaged at {part}; {REOPEN}")
@@ -257,7 +257,7 @@ def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
     ]
     for title, count in Counter(title.casefold() for title, _ in listed).items():
         if count > 1:
-            raise InputError(f"two sheets have the name '{title}'; rename one")
+            raise InputError(f"two worksheets have the name '{title}'; rename one")
     return listed
 
 

@@ -46,7 +46,7 @@ LARGEST = 1e15
 
 
 class CellError(InputError):
-    """A cell with invalid content; the message has the form `is ...; give ...`."""
+    """A cell with invalid content; the message has the form `is ...; enter ...`."""
 
     def __init__(self, fault: str, remedy: str = "") -> None:
         super().__init__(Problem(fault, remedy))
@@ -196,16 +196,16 @@ def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
             is_closed = math.isfinite(entry.bounds.low) and math.isfinite(entry.bounds.high)
             start = "from " if is_closed else "of "
             span = f" {span}" if entry.bounds.excludes_low else f" {start}{span}"
-        return f"give {noun}{span}" + (f" [{unit}]" if unit else "") + entry.or_zero
+        return f"enter {noun}{span}" + (f" [{unit}]" if unit else "") + entry.or_zero
     if entry.kind is date:
-        return "give a date such as 2026-03-05"
-    return f"give text of at most {entry.max_length} characters"
+        return "enter a date such as 2026-03-05"
+    return f"enter text of at most {entry.max_length} characters"
 
 
 def wish_for_missing(entry: Entry, unit: str = "", si: float = 1.0) -> str:
     """Return what to write where nothing is: as `wish`, and for a text an example of it."""
     is_text = entry.kind is str and not entry.choices
-    return f"give text such as '{entry.example}'" if is_text else wish(entry, unit, si)
+    return f"enter text such as '{entry.example}'" if is_text else wish(entry, unit, si)
 
 
 def _is(cell: Found, entry: Entry) -> str:
@@ -219,7 +219,7 @@ def _quoted(value: object) -> str:
     return f"'{text}'" if isinstance(value, str) else text
 
 
-def number(cell: Found, remedy: str = "give a number", unit: str = "") -> float:
+def number(cell: Found, remedy: str = "enter a number", unit: str = "") -> float:
     """Return the number in a cell or its text, in its unit; raise CellError for a false format."""
     value = cell.value
     if isinstance(value, str):

@@ -65,7 +65,7 @@ def changed(
     has_formula = any(isinstance(value, Formula) for value in changes.values())
     for title in dict.fromkeys(position.sheet for position in (*changes, *stale, *looks)):
         if title not in titles:
-            raise InputError(f"{title}: the sheet is missing")
+            raise InputError(f"{title}: the worksheet is missing")
         part = titles[title]
         sheet = _sheet(title, files[part])
         cells = {(p.row, p.column): value for p, value in changes.items() if p.sheet == title}

@@ -36,7 +36,7 @@ def path_beside(
     """
     # A path may have been typed on Windows, and is read on any system.
     name = name.replace("\\", "/")
-    where = f"give a file in the workbook's folder, such as {example}"
+    where = f"use a file in the workbook's folder, such as {example}"
     if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or ".." in name.split("/"):
         raise InputError(f"'{name}' is outside the workbook's folder; {where}")
     try:
@@ -59,7 +59,7 @@ def path_beside(
             raise
         raise InputError(f"'{name}' cannot be found; {where}") from error
     if size > max_bytes:
-        raise InputError(f"'{name}' has {size / 1e6:.0f} MB; give at most {max_bytes / 1e6:.0f} MB")
+        raise InputError(f"'{name}' has {size / 1e6:.0f} MB; use at most {max_bytes / 1e6:.0f} MB")
     return path
 
 
@@ -148,6 +148,6 @@ def _years(name: str, content: bytes) -> StudyYears:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"])) or "its text"
         raise InputError(
-            f"'{name}' is no {YEARS} of a study ({where}: {first['msg']}); give the file that"
+            f"'{name}' is no {YEARS} of a study ({where}: {first['msg']}); use the file that"
             " roofslip study writes where its workbook has a hazard curve"
         ) from error

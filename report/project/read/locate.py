@@ -133,7 +133,7 @@ def _headings(book: OpenBook, section: SheetSection) -> _Place:
         if len(columns) > len(section.entries) / 2:
             return sheet, min(columns), row, max(columns), range(0)
     lack = f"no table {section.table_name} and no row of its headings"
-    missing = "" if sheets else "the sheet is missing: "
+    missing = "" if sheets else "the worksheet is missing: "
     raise InputError(f"{section.sheet}: {missing}{lack}; {FRESH}")
 
 

@@ -182,7 +182,7 @@ def unit_size(entry: Entry, unit: str, where: str = "") -> tuple[str, float]:
     problem = f"is '{unit}'" if unit else "is missing"
     first, *more_units = accepted
     remedy = (
-        f"give the number in {first}, and write {first}" if first else "it has no unit: delete it"
+        f"enter the number in {first}, and write {first}" if first else "it has no unit: delete it"
     )
     if more_units:
         remedy = f"write one of {', '.join(accepted)}"

@@ -175,7 +175,7 @@ class Gathered:
 def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> None:
     if is_absent(book, section):
         raise InputError(
-            f"{section.sheet}: the sheet is missing, or all labels of {section.title}; {FRESH}"
+            f"{section.sheet}: the worksheet is missing, or all labels of {section.title}; {FRESH}"
         )
     absent = added_later(book, section)
     row = {entry.name: entry.default for entry in absent}

@@ -51,8 +51,8 @@ class Concealment(StrEnum):
 
 
 _SENTENCES: Mapping[Concealment, str] = {
-    Concealment.SHEET: "the sheet is {state}, and {cells} on it {are} read: show it, or clear what"
-    " is not meant",
+    Concealment.SHEET: "the worksheet is {state}, and {cells} on it {are} read: unhide it, or clear"
+    " what is not meant",
     Concealment.HIDDEN: "{cells} {are} in hidden rows or columns, and {are} read: show them, or"
     " clear what is not meant",
     Concealment.FILTERED: "{cells} {are} in rows that a filter hides, and {are} read: clear the"
@@ -276,7 +276,7 @@ def copies(
             if labels and title not in (read, *warned) and labels <= _labels(section, rows[title]):
                 warned.add(title)
                 text = (
-                    f"sheets '{read}' and '{title}' both have the labels of {section.title};"
+                    f"worksheets '{read}' and '{title}' both have the labels of {section.title};"
                     f" '{read}' is read, and '{title}' is ignored: delete the one that is not meant"
                 )
                 yield warning(f"copy {title}", Place(section.key), text)
@@ -318,7 +318,7 @@ def not_calculated(book: OpenBook, used: Used, of_book: Place) -> Iterator[Findi
         why = f"was saved before its formulas were calculated{manual}"
     # So does a fresh one, which has such values only in formulas that are read.
     elif read and says.get("fullCalcOnLoad", "0") in ("1", "true"):
-        why = "asks to be calculated when it is opened"
+        why = "is set to recalculate when it is opened"
     else:
         return
     if read or any(scan.formulas for scan in book.scans.values()):

@@ -38,7 +38,8 @@ COLUMNS: Mapping[str, tuple[str, str]] = {
     "objects_i_p": ("objects", "i_p"),
 }
 
-# Rows of `rule_separations` by neighbor; the last one has the minimum of the rule set, too.
+# Rows of `rule_separations` by neighbor; the last one has the minimum of the rule set, too. Arrays
+# are the first and the third, by which `_NEIGHBOR` names them.
 SEPARATION_ROWS: Mapping[Neighbor, int] = {
     Neighbor.LIKE: 1,
     Neighbor.FIXED: 2,
@@ -141,11 +142,11 @@ _OVER_PARAPET = """
     LOOKUP(2,1/(arrays_id=[array]),arrays_cg)*VLOOKUP(arrays[#cg_height_m],inches,2,0)
     +rule_parapet_over_cg_in)),"")
 """
-_NEIGHBOR = f"""
+_NEIGHBOR = """
     IFERROR(IF([object]="","",IFERROR(VLOOKUP(LOOKUP(2,1/(objects_id=[object]),objects_kind),kinds,
     IF(MAX([over_parapet],-1)<-0.00000001,2,3),0),
-    IF(LOOKUP(2,1/(arrays_id=[object]),arrays_kind)=LOOKUP(2,1/(arrays_id=[array]),arrays_kind),
-    "{Neighbor.LIKE}","{Neighbor.UNLIKE}"))),"")
+    INDEX(neighbors,IF(LOOKUP(2,1/(arrays_id=[object]),arrays_kind)
+    =LOOKUP(2,1/(arrays_id=[array]),arrays_kind),1,3),1))),"")
 """
 _IMPORTANCE = f"""
     IFERROR(IF([neighbor]="","",IF(rule_importance="{IN_DISPLACEMENT}",1,IF(LEFT([neighbor],4)="edge",

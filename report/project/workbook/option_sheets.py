@@ -17,8 +17,8 @@ from report.project.workbook.entries import Entry, block, table
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS
 
 OPTIONS = block("options", "Options", "Options", Options, "The defaults suit most projects.",
-    Entry("Design value statistic", "statistic", "rule set", former="Design value from peaks",
-          note="Rule set: the statistic that the rule set requires for this number of motions."
+    Entry("Design value statistic", "statistic", "per rule set", former="Design value from peaks",
+          note="Per rule set: the statistic that the rule set requires for this number of motions."
                f" Mean: {MEAN_WITHOUT_FACTOR_MOTIONS} motions or more."),
     Entry("Peer review", "peer_reviewed", "No", former="Analysis is peer reviewed",
           note="Yes if the analysis is peer reviewed; the floor then does not apply, once the four"
@@ -43,8 +43,8 @@ OPTIONS = block("options", "Options", "Options", Options, "The defaults suit mos
           " with one to six arrays by the prescriptive displacement."),
     Entry("Results letter", "letter", "No", former="Letter of results",
           note="Yes if the package contains a letter to the client with the results."),
-    Entry("Sheet size of the roof plan", "plan_paper", "by size", former="Paper of the roof plan",
-          note="By size: Letter with US units first, A4 with SI units first; 11 x 17 in or A3 if"
+    Entry("Sheet size of the roof plan", "plan_paper", "automatic", former="Paper of the roof plan",
+          note="Automatic: Letter with US units first, A4 with SI units first; 11 x 17 in or A3 if"
           " the labels need more room. The other sheets are Letter or A4."),
 )  # fmt: skip
 
@@ -69,7 +69,7 @@ CONFIRMATION = block("confirmation", "Options", "Confirmation of the provisions"
 OVERRIDES = table("overrides", "Options", "Overrides of provisions", Override,
     "Each is printed in the package with its reason.",
     Entry("Provision", "provision", provision_name("parapet_height_in"), key_of=provision_key,
-          note="The value to replace, from the list; the Provisions worksheet has its value and"
+          note="Provision to override, from the list; the Provisions worksheet has its value and"
           " code section."),
     Entry("Value", "value", 18.0, unit_from=("provision", provision_unit),
           note="In the unit on the Provisions worksheet."),

@@ -109,14 +109,14 @@ OBJECTS = table("objects", "Objects", "Objects and roof edges", RoofObject,
     " rectangle is optional; enter an edge as a strip outside the roof.",
     Entry("ID", "id", "RTU-1", note="Short and unique, such as RTU-1."),
     Entry("Kind", "kind", "fixed object",
-          note="An unlike array is an array of different construction that is not listed on the"
-          " Arrays worksheet."),
+          note="Array of different construction: one that is not listed on the Arrays worksheet,"
+          " such as an existing array."),
     Entry("Height", "height_m", 42.0, Quantity.SIZE, usual=(4.0, 240.0),
           note="Height of the object or parapet above the roof; required for an edge with"
           " parapet."),
     *_sides(_SIDE),
     Entry("Importance factor I_p", "i_p", 1.0, is_rare=True,
-          note="Importance factor of an object or unlike array; not used for edges."),
+          note="Importance factor of the object; not used for edges."),
     Entry("Location source", "place_from", DRAWING, is_rare=True, former="Place from",
           note="Same as for arrays."),
 )  # fmt: skip
@@ -154,6 +154,7 @@ LAYERS = table("layers", "Layers", "Layers of the roof drawing", DrawingLayer,
     "Optional, for roofslip plan read: what is drawn on each layer. The layers of plan.dxf need"
     " no row.",
     Entry("Layer", "layer", "A-ROOF-PV", note="Name of a layer of the roof drawing."),
-    Entry("Drawn on it", "kind", "array", note="What the closed polylines on the layer are."),
+    Entry("Content", "kind", "array", former="Drawn on it",
+          note="What the closed polylines on the layer are."),
     may_be_absent=True,
 )  # fmt: skip

@@ -20,7 +20,7 @@ from solver.rules.site_coefficients import F_A, F_V, CoefficientTable
 TABLES = "Tables"
 # Above every mapped acceleration that is accepted.
 _ABOVE_ALL_G = 100.0
-_HINT = "What the formulas of this workbook look up. This sheet has no input cells."
+_HINT = "What the formulas of this workbook look up. No input cells on this worksheet."
 _STATUS = {
     Confidence.CONFIRMED: "confirmed against a published calculation",
     Confidence.KNOWN: "† verify against the adopted code",

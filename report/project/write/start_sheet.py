@@ -18,13 +18,11 @@ from report.project.write import style
 from report.text.units import LENGTHS, STIFFNESSES, VELOCITIES, WEIGHTS, Quantity
 from solver.rules.provisions import Neighbor
 
-_ANSWERS_HINT = (
-    "Computed from the other sheets; the numbers of the rule set are on the Provisions worksheet."
-)
-_HEADS = ("", "", "Value", "Separation", "", "", "Worst D/C", "", "Note")
+_ANSWERS_HINT = "Computed from the other worksheets. Values of the rule set: Provisions worksheet."
+_HEADS = ("", "", "Value", "Separation", "", "", "Largest D/C", "", "Note")
 _SEPARATIONS = {
-    Neighbor.LIKE: "Separation, like arrays",
-    Neighbor.FIXED: "Separation, fixed object or unlike array",
+    Neighbor.LIKE: "Separation, array of similar construction",
+    Neighbor.FIXED: "Separation, fixed object or array of different construction",
     Neighbor.PARAPET: "Separation, edge with qualifying parapet",
     Neighbor.EDGE: "Separation, edge without qualifying parapet",
 }

@@ -5,7 +5,7 @@ import { follow, saveFile, say, showProgress } from "./package.js";
 import { save } from "./saving.js";
 
 const PROJECT = "project.zip";
-const BASIS = "Their target is AC156 with S_DS, z/h and the rule set of the sheet Site.";
+const BASIS = "Their target is AC156 with S_DS, z/h and the rule set on the Site worksheet.";
 
 /**
  * Offer drawings in an element; `open` opens what a promise gives, `filled` gets the workbook that was

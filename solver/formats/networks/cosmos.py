@@ -84,7 +84,7 @@ def read(source: Source) -> MotionFile:
     for index, text in enumerate(source.lines):
         if (match := _FIRST.match(text)) and match[1].upper() == "RAW":
             raise InputError(
-                f"{source.at(index)}: found raw counts; give the volume 1 or 2 file, of uncorrected"
+                f"{source.at(index)}: found raw counts; use the volume 1 or 2 file, of uncorrected"
                 " or corrected acceleration"
             )
     series = _parts(source)
@@ -121,7 +121,7 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
         if _FIRST.match(line) and index not in filled:
             yield (
                 f"{source.at(index)}: found a heading without a line ... pts, approx ... secs and"
-                " values; give the whole file"
+                " values; use the whole file"
             )
     for part in {part.first: part for part in reversed(series)}.values():
         starts: list[tuple[int, int, str]] = []
@@ -136,7 +136,7 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
         for (index, stated, block), end in zip(starts, ends, strict=True):
             if (lines := end - index - 1 + (block == _TEXT)) != stated:
                 yield (
-                    f"{source.at(index)}: states {stated} lines of {block}, found {lines}; give the"
+                    f"{source.at(index)}: states {stated} lines of {block}, found {lines}; use the"
                     " whole file"
                 )
 
@@ -144,7 +144,7 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
 def _channel(source: Source, part: _Part) -> Record:
     line, layout = part.line, layout_of(part.line[6])
     if not layout:
-        raise InputError(f"{source.at(part.at)}: found format ({line[6]}); give one as (8F10.3)")
+        raise InputError(f"{source.at(part.at)}: found format ({line[6]}); enter one as (8F10.3)")
     scale = _scale(source, part)
     reals = _reals(source, part)
     dt_s = source.step(_step(part, reals))
@@ -158,7 +158,7 @@ def _channel(source: Source, part: _Part) -> Record:
     if abs(length_s - stated_s) > 1.0 + dt_s + 0.01 * stated_s:  # it is in whole seconds
         raise InputError(
             f"{source.at(part.at)}: states about {stated_s:g} s, count times step is {length_s:g}"
-            " s; give a file whose headings agree"
+            " s; use a file whose headings agree"
         )
     channels.check_length(source, _real(reals, _SERIES_LENGTH_S), length_s, dt_s)
     peak = _real(reals, _PEAK)
@@ -179,13 +179,13 @@ def _scale(source: Source, part: _Part) -> float:
     coded = _UNITS.get(int(code), "") if code else ""
     if code and not coded:
         raise InputError(
-            f"{source.at(part.at)}: found unit {quoted(name)}, code {int(code)}; give a file of"
+            f"{source.at(part.at)}: found unit {quoted(name)}, code {int(code)}; use a file of"
             " acceleration in g or cm/s2"
         )
     if coded and name and unit_size(name) != unit_size(coded):
         raise InputError(
             f"{source.at(part.at)}: found unit {quoted(name)} with code {int(code)}, which is"
-            f" {coded}; give a file in which they agree"
+            f" {coded}; use a file in which they agree"
         )
     return source.scale(name or coded, part.at)
 
@@ -198,7 +198,7 @@ def _reals(source: Source, part: _Part) -> list[Stated]:
         if match and layout:
             return header_values(source, index + 1, min(int(match[1]), 1000), layout)
     raise InputError(
-        f"{source.at(part.first)}: found no block ... Real-header values follow ...; give the whole"
+        f"{source.at(part.first)}: found no block ... Real-header values follow ...; use the whole"
         " file"
     )
 

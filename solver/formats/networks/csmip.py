@@ -101,7 +101,7 @@ def recognizes(source: Source) -> bool:
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all channels of a file."""
     if _VOLUME_3.match(source.line(0)):
-        raise InputError(f"{source.at(0)}: found spectra; give a file of volume 1 or 2")
+        raise InputError(f"{source.at(0)}: found spectra; use a file of volume 1 or 2")
     volume = _TWO if _VOLUME_2.match(source.line(0)) else _ONE
     # RENADIC of Chile writes volume 1 of CSMIP, and says so in its text.
     text = " ".join(source.lines[: volume.text]).upper()
@@ -128,7 +128,7 @@ def _channel(source: Source, part: range, volume: _Volume) -> Record:
     else:
         raise InputError(
             f"{source.at(part.start)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
-            " ...; give the whole file"
+            " ...; use the whole file"
         )
     peak_index, peak = _search(source, part, volume.peak) or (part.start, None)
     peak_mps2 = printed(peak[1], peak_index).value * unit_size(peak[2]) if peak else 0.0
@@ -149,7 +149,7 @@ def _values_of_one(source: Source, part: range) -> Record:
     if not points or not unit:
         missing = "NO. OF POINTS" if not points else "UNITS OF UNCOR ACCEL"
         raise InputError(
-            f"{source.at(part.start)}: found no line {missing} = ...; give the whole file"
+            f"{source.at(part.start)}: found no line {missing} = ...; use the whole file"
         )
     scale = source.scale(unit[1][1], unit[0])
     first = part.start + _ONE.heading
@@ -168,7 +168,7 @@ def _values_of_one(source: Source, part: range) -> Record:
     block = Block(first=first, stop=stop, count=2 * count, promised=points[0])
     pairs = fixed_values(source, block, _PAIRS).reshape(-1, 2)
     if len(pairs) < 2:
-        raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; give at least 2")
+        raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; enter at least 2")
     times, columns = pairs[:, 0], pairs[:, 1:].T
     line_of = (first + np.arange(len(times)) // (_PAIRS.per_line // 2)).tolist().__getitem__
     dt_s, columns, notes = sampled(source, times, columns, line_of)
@@ -185,11 +185,11 @@ def _even_values(
     if index - part.start != volume.heading:
         raise InputError(
             f"{source.at(index)}: found {index - part.start} lines of heading above this one, where"
-            f" the format has {volume.heading}; give the whole file"
+            f" the format has {volume.heading}; use the whole file"
         )
     layout = layout_of(line[4]) if line[4] else (None if volume is _ONE else _REAL)
     if line[4] and not layout:
-        raise InputError(f"{source.at(index)}: found format ({line[4]}); give one as (8f10.3)")
+        raise InputError(f"{source.at(index)}: found format ({line[4]}); enter one as (8f10.3)")
     dt_s = source.step(_step(source, part, volume, index, line))
     lines = range(index + 1, part.stop)
     stop, ended = channels.end_of_values(source, lines, _END.match, *_ENDED)
@@ -215,7 +215,7 @@ def _step(source: Source, part: range, volume: _Volume, index: int, line: re.Mat
     exact = _real(source, part, volume, _STEP_2)
     if math.isnan(exact.value):
         raise InputError(
-            f"{source.at(exact.index)}: found no step as real number {_STEP_2} of the heading; give"
+            f"{source.at(exact.index)}: found no step as real number {_STEP_2} of the heading; use"
             " the whole file"
         )
     if not exact.value > 0.0:

@@ -65,7 +65,7 @@ def _component(source: Source, part: range, is_raw: bool) -> Record:
     count = integers[_ACCELERATIONS - 1]
     if not 0.0 <= count.value < 1e8:
         raise InputError(
-            f"{source.at(count.index)}: found no number of accelerations; give the whole file"
+            f"{source.at(count.index)}: found no number of accelerations; use the whole file"
         )
     dt_s = source.step(_step(source, part, real[_STEP - 1]))
     scale = _scale(source, part)
@@ -114,14 +114,14 @@ def _scale(source: Source, part: range) -> float:
         readings = printed(unit[1], line_index).value
         if not readings > 0.0:
             raise InputError(
-                f"{source.at(line_index)}: found units of {unit[1]}; give a number above 0"
+                f"{source.at(line_index)}: found units of {unit[1]}; enter a number above 0"
             )
         return source.scale(unit[2], line_index) * readings
     line_index = part.start + _PEAK_LINE - 1
     unit = _PEAK_UNIT.match(source.line(line_index).strip())
     if not unit:
         raise InputError(
-            f"{source.at(line_index)}: found no line Acceleration: peak ... mm/s/s; give the whole"
+            f"{source.at(line_index)}: found no line Acceleration: peak ... mm/s/s; use the whole"
             " file"
         )
     return source.scale(unit[1], line_index)

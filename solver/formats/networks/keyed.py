@@ -112,9 +112,7 @@ def read(source: Source) -> MotionFile:
         source = replace(source, lines=[*top, *rows])
     quantity, line = heading.get("quantity")[1:]
     if quantity and ("ACCELERATION" not in quantity.upper() or "SPECTRUM" in quantity.upper()):
-        raise InputError(
-            f"{source.at(line)}: found {quantity.lower()}; give a file of acceleration"
-        )
+        raise InputError(f"{source.at(line)}: found {quantity.lower()}; use a file of acceleration")
     dt_s = source.step(heading.step)
     names = _names(source, heading)
     # Behind the accelerations of ISESD are velocities and displacements.
@@ -182,7 +180,7 @@ def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats
     rows = [(i, source.lines[i].split()) for i in range(heading.first, stop)]
     if width > 1:
         raise_any(
-            f"{source.at(index)}: found {len(fields)} values; give {width}"
+            f"{source.at(index)}: found {len(fields)} values; enter {width}"
             for index, fields in rows
             if len(fields) not in (0, width)
         )
@@ -191,7 +189,9 @@ def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats
     if text:
         number = text.strip("/").partition("/")[0]
         if not number.isdecimal():
-            raise InputError(f"{source.at(index)}: found {quoted(text)}; give the number of values")
+            raise InputError(
+                f"{source.at(index)}: found {quoted(text)}; enter the number of values"
+            )
         count = width * int(number)
     block = Block(first=heading.first, stop=stop, count=count, promised=index)
     return np.ascontiguousarray(free_values(source, block).reshape(-1, width).T)

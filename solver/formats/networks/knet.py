@@ -56,7 +56,7 @@ def _csv(source: Source, top: int) -> MotionFile:
     heads = [text.strip() for text in source.lines[top].split(",")]
     rows = [(i, row.split(",")) for i, row in enumerate(source.lines) if i > top and row.strip()]
     if len(rows) < 2:
-        raise InputError(f"{source.at(top)}: found {len(rows)} rows below it; give the whole file")
+        raise InputError(f"{source.at(top)}: found {len(rows)} rows below it; use the whole file")
     table = dated_table(source, rows, len(heads))
     lines = [index for index, _ in rows]
     check_last(source, rows[-1][0], [fields[-1].strip() for _, fields in rows[-COMPARED:]])
@@ -74,7 +74,7 @@ def _component(source: Source, index: int, head: str, dt_s: float, values: Float
     """Return a column of the CSV as a record by its heading, a name with its unit."""
     unit = _IN_UNIT.fullmatch(head)
     if not unit:
-        raise InputError(f"{source.at(index)}: found {quoted(head)}; give a column as N-S(gal)")
+        raise InputError(f"{source.at(index)}: found {quoted(head)}; enter a column as N-S(gal)")
     name, a_mps2 = _KIK_NET.get(unit[1], unit[1]), values * source.scale(unit[2], index)
     borehole = (_BOREHOLE,) if name.endswith("1") else ()
     return Record(name=name, dt_s=dt_s, a_mps2=a_mps2, notes=(*offset_notes(a_mps2), *borehole))
@@ -91,7 +91,7 @@ def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
     words = f"the heading states {stated_s:g} s, the record lasts {length_s:g} s"
     # Whole seconds hide less than one; more is a file that was cut.
     if abs(stated_s - length_s) >= 1.0:
-        raise InputError(f"{source.at(index + 1)}: {words}; give the whole file")
+        raise InputError(f"{source.at(index + 1)}: {words}; use the whole file")
     return (words,)
 
 
@@ -122,7 +122,7 @@ def _entry(source: Source, *names: str) -> tuple[str, int]:
         for name in names:
             if line.startswith(name):
                 return line[len(name) :].strip(), index
-    raise InputError(f"{source.name}: found no line {names[0]}; give the whole heading")
+    raise InputError(f"{source.name}: found no line {names[0]}; use the whole heading")
 
 
 def _number(source: Source, name: str) -> Stated:
@@ -130,7 +130,7 @@ def _number(source: Source, name: str) -> Stated:
     match = _LEADING.match(text)
     stated = printed(match[0] if match else "", index)
     if not 0.0 < stated.value < 1e6:
-        raise InputError(f"{source.at(index)}: found {quoted(text)}; give a number above 0")
+        raise InputError(f"{source.at(index)}: found {quoted(text)}; enter a number above 0")
     return stated
 
 
@@ -141,6 +141,6 @@ def _scale(source: Source) -> float:
     over, under = (printed(match[i], index).value for i in (1, 3)) if match else (0.0, 0.0)
     if not match or not (over > 0.0 and under > 0.0):
         raise InputError(
-            f"{source.at(index)}: found {quoted(text)}; give a scale as 3920(gal)/6182761"
+            f"{source.at(index)}: found {quoted(text)}; enter a scale as 3920(gal)/6182761"
         )
     return source.scale(match[2], index) * over / under

@@ -51,12 +51,12 @@ def read(source: Source) -> MotionFile:
     heading = source.lines[:number]
     for index, line in enumerate(heading):
         if quantity := phrases.other_quantity(line):
-            raise InputError(f"{source.at(index)}: found {quantity}; give the file of acceleration")
+            raise InputError(f"{source.at(index)}: found {quantity}; use the file of acceleration")
     stated = source.lines[number]
     counted = _counted(stated) or _BARE.fullmatch(stated.strip())
     if not counted:
         raise InputError(
-            f"{source.at(number)}: found {quoted(stated.strip())}; give the count and the step as"
+            f"{source.at(number)}: found {quoted(stated.strip())}; enter the count and the step as"
             " in NPTS=  4000, DT=   .0100 SEC"
         )
     units: list[tuple[str, int]] = []

@@ -71,7 +71,7 @@ def read(source: Source) -> MotionFile:
     name, pieces = Counter(trace.id for trace in traces).most_common(1)[0]
     if pieces > 1:
         raise InputError(
-            f"{source.name}: {name} has {pieces} pieces with gaps or overlaps between them; give"
+            f"{source.name}: {name} has {pieces} pieces with gaps or overlaps between them; enter"
             " one piece without gaps"
         )
     channels = [_channel(source, obspy, trace) for trace in traces]
@@ -79,7 +79,7 @@ def read(source: Source) -> MotionFile:
 
 
 def _damaged(source: Source, form: str) -> InputError:
-    return InputError(f"{source.name}: damaged or cut {_NAMES[form]}; give the whole file")
+    return InputError(f"{source.name}: damaged or cut {_NAMES[form]}; use the whole file")
 
 
 def _channel(source: Source, obspy: Any, trace: Any) -> Record:
@@ -87,7 +87,7 @@ def _channel(source: Source, obspy: Any, trace: Any) -> Record:
     quantity = _OTHER_SAC.get(int(sac.get("idep", 0))) if sac else None
     if quantity or trace.data.dtype.kind not in "if":
         raise InputError(
-            f"{source.name}: {trace.id} has {quantity or 'text'}; give a record of acceleration"
+            f"{source.name}: {trace.id} has {quantity or 'text'}; use a record of acceleration"
         )
     if not np.isfinite(trace.data).all():
         raise InputError(f"{source.name}: {trace.id} has values that are no numbers")
@@ -139,7 +139,7 @@ def _inventory(source: Source, obspy: Any) -> Any:
             return obspy.read_inventory(io.BytesIO(content))
     except Exception as error:
         raise InputError(
-            f"{path.name}: cannot be read as a response; give StationXML, or counts per m/s2"
+            f"{path.name}: cannot be read as a response; use StationXML, or counts per m/s2"
         ) from error
 
 
@@ -156,7 +156,7 @@ def _sensitivity(source: Source, inventory: Any, trace: Any) -> tuple[float, flo
         is_digital = "count" in str(sensitivity.output_units).lower()
     except Exception as error:  # it raises a plain Exception where there is no such channel
         raise InputError(
-            f"{path.name}: has no sensitivity of {trace.id} at {trace.stats.starttime}; give the"
+            f"{path.name}: has no sensitivity of {trace.id} at {trace.stats.starttime}; enter the"
             " StationXML of its instrument"
         ) from error
     # That of a velocity sensor is per m/s: no factor makes accelerations of its counts.
@@ -164,6 +164,6 @@ def _sensitivity(source: Source, inventory: Any, trace: Any) -> tuple[float, flo
     if math.isnan(size) or not is_digital or not SENSITIVITY.has(value / size):
         raise InputError(
             f"{path.name}: the sensitivity of {trace.id} is {value:g} {sensitivity.output_units}"
-            f" per {quoted(units)}; give that of an accelerometer, {SENSITIVITY.words}"
+            f" per {quoted(units)}; enter that of an accelerometer, {SENSITIVITY.words}"
         )
     return value / size, at_hz

@@ -55,7 +55,7 @@ def read(source: Source) -> MotionFile:
     match = _FIRST.match(source.line(0))
     kind = match[1].upper() if match else ""
     if "ACCEL" not in kind:
-        raise InputError(f"{source.at(0)}: found {kind.lower()}; give a file of acceleration")
+        raise InputError(f"{source.at(0)}: found {kind.lower()}; use a file of acceleration")
     integers = header_values(source, _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, _TEXT + _WHOLE.lines(_WHOLES), _REALS, _REAL)
     # The format has no other unit.
@@ -86,7 +86,7 @@ def _block(source: Source, integers: Sequence[Stated]) -> tuple[Block, tuple[str
     for number, meaning in ((comments, "lines of comment"), (count, "values")):
         if not 0.0 <= number.value < 1e8:
             raise InputError(
-                f"{source.at(number.index)}: found no number of {meaning}; give the whole file"
+                f"{source.at(number.index)}: found no number of {meaning}; use the whole file"
             )
     heading = _TEXT + _WHOLE.lines(_WHOLES) + _REAL.lines(_REALS)
     first = heading + int(comments.value)
@@ -94,7 +94,7 @@ def _block(source: Source, integers: Sequence[Stated]) -> tuple[Block, tuple[str
         if not source.lines[index].startswith("|"):
             raise InputError(
                 f"{source.at(index)}: found a line without | among the {comments.value:.0f} lines"
-                " of comment; give the whole file"
+                " of comment; use the whole file"
             )
     further = 0
     while source.line(first + further).startswith("|"):
@@ -120,18 +120,18 @@ def _uneven(source: Source, block: Block, scale: float) -> Record:
     if len(values) not in (block.count, 2 * block.count):
         raise InputError(
             f"{source.at(block.promised)}: states {block.count} values, found {len(values)};"
-            " give the whole file"
+            " use the whole file"
         )
     rows = []
     for index, number in enumerate(fields[: block.stop - block.first], block.first):
         if number % 2:
             raise InputError(
-                f"{source.at(index)}: found {number} values; give pairs of time and acceleration"
+                f"{source.at(index)}: found {number} values; enter pairs of time and acceleration"
             )
         rows += [index] * (number // 2)
     pairs = values.reshape(-1, 2)
     if len(pairs) < 2:
-        raise InputError(f"{source.at(block.promised)}: found {len(pairs)} pairs; give at least 2")
+        raise InputError(f"{source.at(block.promised)}: found {len(pairs)} pairs; enter at least 2")
     # Five digits print some readings of film at the same time.
     times, first, count = np.unique(pairs[:, 0], return_index=True, return_counts=True)
     if len(times) < len(pairs) and (np.diff(pairs[:, 0]) >= 0.0).all():

@@ -145,7 +145,7 @@ def test_factors_are_read_from_the_sheet_and_refused_by_cell_outside_of_the_rang
     assert read_workbook(path).input.options.smaller_factors == (0.5, 0.5, 0.25)
     (line,) = problems(type_into(path, {CELL: typed}))
     assert line.startswith(cell_address(CELL))
-    assert "give up to 20 factors with decimal points, above 0.0 and up to 1.0" in line
+    assert "enter up to 20 factors with decimal points, above 0.0 and up to 1.0" in line
 
 
 LAW = {"mu": 0.20, "mu_fast": 0.45, "mu_rate_s_per_m": 20.0}

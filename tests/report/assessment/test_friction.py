@@ -79,11 +79,15 @@ NEAR = wet_runs((0.457, 0.495, 0.525, 0.527))  # mean 0.501
     ("given", "law", "says"),
     [
         (ON_FITTED, {"mu": 0.396, "mu_fast": 0.504}, "as tested: the fit of the wet runs"),
-        (ON_FITTED, {"mu": 0.39}, "entered, at or below the tests"),
-        (wet_runs([FITTED.at(v) + 0.05 for v in VELOCITIES]), {}, "entered, at or below the tests"),
-        (NEAR, constant(0.45), "entered, at or below the tests"),
-        (NEAR, constant(0.501), "entered, on average at or below the tests"),
-        (NEAR, constant(0.504), "entered, on average within 0.005 of the tests"),
+        (ON_FITTED, {"mu": 0.39}, "entered, at or below the tested values"),
+        (
+            wet_runs([FITTED.at(v) + 0.05 for v in VELOCITIES]),
+            {},
+            "entered, at or below the tested values",
+        ),
+        (NEAR, constant(0.45), "entered, at or below the tested values"),
+        (NEAR, constant(0.501), "entered, on average at or below the tested values"),
+        (NEAR, constant(0.504), "entered, on average within 0.005 of the tested values"),
     ],
 )
 def test_the_fit_alone_is_as_tested_and_one_coefficient_is_entered(given, law, says):
@@ -94,11 +98,12 @@ def test_the_fit_alone_is_as_tested_and_one_coefficient_is_entered(given, law, s
     ("given", "law", "says"),
     [
         (wet_runs([FITTED.at(v) for v in VELOCITIES[:3]], VELOCITIES[:3]), {},
-         "entered, at or below the tests from 0.10 in/s (2.5 mm/s) to 2.00 in/s (50.8 mm/s)"),
+         "entered, at or below the tested values from 0.10 in/s (2.5 mm/s) to 2.00 in/s"
+         " (50.8 mm/s)"),
         (wet_runs((0.5,), (0.0254,)), constant(0.45),
-         "entered, at or below the tests at 1.00 in/s (25.4 mm/s)"),
+         "entered, at or below the tested values at 1.00 in/s (25.4 mm/s)"),
         (wet_runs((0.5,), (None,)), constant(0.45),
-         "entered, at or below the tests (velocities not entered)"),
+         "entered, at or below the tested values (velocities not entered)"),
         ([], {}, "entered; no friction test runs are entered"),
     ],
     ids=["too few velocities for a fit", "one velocity", "no velocity", "no runs"],
@@ -142,7 +147,7 @@ def by_velocity():
     gaps = [
         projects.clearance("A1", "RTU-1", 0.4),
         projects.clearance("A1", "A2", 1.2),
-        projects.clearance("A2", "S edge", 1.7, "down"),
+        projects.clearance("A2", "S edge", 1.7, "downslope"),
     ]
     return assessed(arrays, runs(0.45, 0.254), clearances=gaps, options=assessments.REVIEW)
 

@@ -177,7 +177,7 @@ def test_motions_run_where_they_can_and_else_the_reason_is_given(tmp_path):
 
 @pytest.mark.nightly
 def test_rows_that_stand_are_kept_and_said_where_they_differ(tmp_path):
-    rows = [clearance("A1", "A2", 120 * INCH, "across"), clearance("A2", "RTU-1", 50 * INCH)]
+    rows = [clearance("A1", "A2", 120 * INCH, "cross-slope"), clearance("A2", "RTU-1", 50 * INCH)]
     path = make(tmp_path, objects=PLACED, clearances=rows)
     type_into(path, {"Clearances/2/Object": "GONE", "Clearances/1/Provided clearance": 130})
     output = fill(tmp_path)
@@ -283,7 +283,10 @@ def test_bare_edges_and_overlaps_are_said_and_not_written(tmp_path):
     inside = roof_object("IN", "edge without parapet", 30, 40, 20, 30)
     roof = sides(15, 300, 0, 120)
     path = make(
-        tmp_path, clearances=[], objects=[inside, roof_object("OLD", "unlike array")], roof=roof
+        tmp_path,
+        clearances=[],
+        objects=[inside, roof_object("OLD", "array of different construction")],
+        roof=roof,
     )
     output = fill(tmp_path)
     assert "not added: A1 to the west edge of the roof, 60.0 in (1524 mm); correct" in output
@@ -314,7 +317,7 @@ def test_a_name_without_a_date_confirms_nothing(tmp_path):
     label = "Project/Drawing distances confirmed"
     (problem,) = problems(type_into(make(tmp_path), {f"{label} by": "MT"}))
     assert problem == cell_address(
-        f"<{label} on>: drawing distances confirmed on is missing; give who confirmed the drawing"
+        f"<{label} on>: drawing distances confirmed on is missing; enter who confirmed the drawing"
         " distances and when, or neither"
     )
 

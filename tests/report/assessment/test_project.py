@@ -61,7 +61,11 @@ def test_each_motion_and_direction_has_the_farthest_of_all_runs(done):
     assert item.variation == pytest.approx(statistics.stdev(peaks) / statistics.mean(peaks))
     item = done.arrays[2]
     by_motion = [slides(motion, stated(3.0, 0.55)) for motion in SEVEN]
-    for direction, name in (("down", "down_m"), ("up", "up_m"), ("across", "across_m")):
+    for direction, name in (
+        ("downslope", "down_m"),
+        ("upslope", "up_m"),
+        ("cross-slope", "across_m"),
+    ):
         peaks = [max(getattr(r, name) for r in results) for results in by_motion]
         assert [m.peak_m(Direction(direction)) for m in item.motions] == peaks
 
@@ -201,5 +205,5 @@ def test_arrays_of_one_slope_friction_and_model_share_their_runs(monkeypatch):
 
 @pytest.mark.quick
 def test_a_project_that_is_not_there_is_an_input_error_in_python(tmp_path):
-    with pytest.raises(InputError, match="no such file; give a workbook"):
+    with pytest.raises(InputError, match="no such file; use a workbook"):
         assess_project(tmp_path / "gone.xlsx")

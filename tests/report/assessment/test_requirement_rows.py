@@ -111,7 +111,7 @@ def overridden(options=None, **values):
         arrays=[projects.array("A1", 0.5), projects.array("A2", 2.0, x=120)],
         clearances=[
             projects.clearance("A1", "RTU-1", 7 * FOOT),
-            projects.clearance("A2", "S edge", 5 * FOOT, "down"),
+            projects.clearance("A2", "S edge", 5 * FOOT, "downslope"),
         ],
     ).assessment
 
@@ -287,7 +287,7 @@ def test_a_review_given_before_an_array_changed_removes_no_floor_and_is_a_condit
     arrays = [projects.array("A1", 0.5, mu=0.42), *projects.project().model_dump()["arrays"][1:]]
     found = outdated_row("peer review", **reviewed, arrays=arrays)
     assert found.verdict is Verdict.CONDITION
-    assert found.found == "2026-03-01, given before these inputs changed: sheet Arrays"
+    assert found.found == "2026-03-01, dated before these inputs changed: worksheet Arrays"
     assert found.remedy.startswith("Have it confirmed for these inputs, and enter the new date")
     after = assessed(**reviewed, arrays=arrays)
     floors = [item.floor_m for item in assessed(arrays=arrays).arrays]
@@ -316,7 +316,7 @@ def test_values_that_changed_after_their_document_are_a_condition_until_they_are
     ):  # fmt: skip
         assert outdated_row(title, **given) is None
         found = outdated_row(title, **given | change)
-        assert found.found.endswith(f"given before these inputs changed: sheet {sheet}")
+        assert found.found.endswith(f"dated before these inputs changed: worksheet {sheet}")
         assert found.remedy.endswith(f"if they agree, clear {label} covered.")
         key = found.places[0].section
         cleared = given | change | {key: (given | change)[key] | {f"{cell}_covered": ""}}
@@ -353,11 +353,11 @@ def test_provisions_of_another_rule_set_edition_or_code_are_not_those_confirmed(
 @pytest.mark.parametrize(
     ("change", "sheet"),
     by_day([
-        ({"overrides": [OVERRIDE]}, "sheet Options"),
-        ({"confirmation": {"by": "MT"}}, "sheet Options"),
+        ({"overrides": [OVERRIDE]}, "worksheet Options"),
+        ({"confirmation": {"by": "MT"}}, "worksheet Options"),
         ({"confirmation": {"code": "2019 CBC"}, "site": {"building_code_year": 2019}},
-         "sheets Site, Options"),
-        ({"site": {"rule_set": "ASCE 7-16"}}, "sheet Site"),
+         "worksheets Site, Options"),
+        ({"site": {"rule_set": "ASCE 7-16"}}, "worksheet Site"),
     ], 1),
 )  # fmt: skip
 def test_a_later_change_of_what_was_confirmed_brings_the_marks_back(change, sheet):
@@ -369,7 +369,7 @@ def test_a_later_change_of_what_was_confirmed_brings_the_marks_back(change, shee
     title = "Date of the confirmation of the provisions"
     (said,) = (row for row in done.checks if row.title == title)
     assert said.verdict is Verdict.CONDITION
-    assert said.found == f"2026-03-01, given before these inputs changed: {sheet}"
+    assert said.found == f"2026-03-01, dated before these inputs changed: {sheet}"
     again = given | change | rows
     again["confirmation"] = again["confirmation"] | {"date": dt.date(2026, 3, 2)}
     is_same = done.project.confirmation.of == done.project.site.adopted

@@ -91,7 +91,7 @@ def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypa
     stdout_of("new", tmp_path)
     told = errors_of("check", tmp_path)
     assert cell_address("<Project/Project name>: project name is missing") in told
-    assert cell_address("<Arrays/heading/ID>: no array is given") in told
+    assert cell_address("<Arrays/heading/ID>: no array is entered") in told
     former = tmp_path / "issued.json"
     former.write_bytes(b'{"schema_version": 2, "arr')
     told = errors_of("report", tmp_path / "no-such-project", "--since", former)
@@ -131,7 +131,7 @@ def test_a_rigid_block_that_is_not_adequate_is_ng(tmp_path):
     book = make(
         tmp_path,
         links=[{"array": "A2", "friction": "0.30, 0.45, 0.60", "stiffness_n_per_m": 1e3}],
-        options={"statistic": "rule set", **project_parts.REVIEW},
+        options={"statistic": "per rule set", **project_parts.REVIEW},
         motions=[motion | {"pad_s": 20.0} for motion in given["motions"]],
         arrays=[array | {"slope_value": 7.0} for array in given["arrays"]],
     )
@@ -289,7 +289,7 @@ def test_a_broken_renderer_or_solver_is_a_finding(monkeypatch):
     done = run("doctor")
     assert re.search(r"test page +fails: cannot load library 'libpango-1.0-0'", done.stdout)
     assert done.stderr == (
-        "Error: test page: install what is missing above, or the program again\n"
+        "Error: test page: install what is missing above, or reinstall the program\n"
     )
     monkeypatch.setattr("solver.sliding.checked.slide", lambda *_, **__: SimpleNamespace(prd_m=0.1))
     done = run("doctor")

@@ -133,7 +133,7 @@ def test_convert_never_overwrites_and_notes_are_told(three, tmp_path, column):
     printed("convert", three, out, "--channel", "HN2")
     assert np.abs(read_record(out).a_mps2).max() == pytest.approx(0.2 * G)
     out.write_text("mine")
-    assert "already exists; give another name" in refused("convert", column, out, *READING)
+    assert "already exists; use another name" in refused("convert", column, out, *READING)
     assert out.read_text() == "mine"
     out.unlink()
     path = tmp_path / "uneven.csv"
@@ -148,7 +148,7 @@ def test_what_cannot_be_read_or_written_is_reported(column, three, tmp_path, fil
         return refused("convert", file, to / "a.csv", *words)
 
     assert "no such file" in told(tmp_path / "none.at2")
-    assert "give the time step dt" in told(column, "--units", "g")
+    assert "enter the time step dt" in told(column, "--units", "g")
     assert "1 HN1; 2 HN2; 3 HNZ" in told(three, "--channel", "HNE")
     no_folder = told(column, *READING, to=tmp_path / "none")
     assert "cannot be written (No such file or directory)" in no_folder
@@ -210,13 +210,13 @@ def test_the_model_is_the_simplest_adequate_one(words, model):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--slope-deg", "2", "--mu", "50"], "'--mu': it is 50; give 0 to 1.5."),
+        (["--slope-deg", "2", "--mu", "50"], "'--mu': it is 50; enter 0 to 1.5."),
         (["--slope-deg", "nan", "--mu", "0.4"], "'--slope-deg': it is nan deg"),
-        (["--slope-deg", "95", "--mu", "0.4"], "it is 95 deg; give more than -45 deg and less"),
+        (["--slope-deg", "95", "--mu", "0.4"], "it is 95 deg; enter more than -45 deg and less"),
         (["--slope-deg", "2"], "--mu"),
-        ([*PLACE, "--dt", "0"], "'--dt': it is 0 s; give more than 0 s."),
+        ([*PLACE, "--dt", "0"], "'--dt': it is 0 s; enter more than 0 s."),
         ([*PLACE, "--dt", "0.01"], "0.01"),
-        ([*PLACE, "--factor", "inf"], "it is inf; give a finite number."),
+        ([*PLACE, "--factor", "inf"], "it is inf; enter a finite number."),
         ([*PLACE, "--ppa-g", "1", "--factor", "1"], "not both"),
     ],
 )

@@ -81,7 +81,7 @@ def test_the_exit_code_is_that_of_the_worst(outcomes, fail_on_ng, code):
 
 
 def test_json_has_a_schema_version_and_an_entry_for_each_project():
-    wrong = "Arrays!C8: slope is 'x'; give a number"
+    wrong = "Arrays!C8: slope is 'x'; enter a number"
     outcomes = [
         outcome(
             verdict="NG",
@@ -197,9 +197,9 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     before = path.read_bytes()
     (tmp_path / "records" / "z.csv").write_text("0.1\n" * 200)
     output = stdout_of("report", path)
-    (line,) = (line for line in output.splitlines() if "given before" in line)
-    said = "Date of the peer review: 2026-03-01, given before these inputs changed: "
-    assert line.startswith(f"condition: {said}sheets Arrays, Motions.")
+    (line,) = (line for line in output.splitlines() if "dated before" in line)
+    said = "Date of the peer review: 2026-03-01, dated before these inputs changed: "
+    assert line.startswith(f"condition: {said}worksheets Arrays, Motions.")
     assert path.read_bytes() == before
     assert "on record" not in output
 

@@ -33,7 +33,7 @@ def test_a_host_needs_a_token_and_a_port_that_is_taken_and_a_missing_package_are
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         told = errors_of("serve", "--no-browser", "--port", port)
-    assert f"Port {port} of 127.0.0.1 is in use: end what uses it, or give another --port." in told
+    assert f"Port {port} of 127.0.0.1 is in use: end what uses it, or use another --port." in told
     assert "Address already in use" not in told
     monkeypatch.setitem(sys.modules, "uvicorn", None)
     assert "install the extra web" in errors_of("serve", "--no-browser")

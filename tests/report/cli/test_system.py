@@ -289,7 +289,7 @@ def test_too_long_names_are_refused_before_the_run_odd_letters_and_long_values_s
     for command in (["motion", "info"], ["check"], ["report"]):
         assert not set("\u202e\x1b") & set(errors_of(*command, named))
     told = errors_of("check", type_into(make(tmp_path), {"Arrays/A1/CG height": 10**400}))
-    line = f"<Arrays/A1/CG height>: CG height is 1{'0' * 58}…; give a number greater than 0"
+    line = f"<Arrays/A1/CG height>: CG height is 1{'0' * 58}…; enter a number greater than 0"
     assert cell_address(line) in told
     assert max(map(len, told.splitlines())) < 300
 

@@ -117,8 +117,8 @@ def test_closed_lines_in_a_layout_are_said_to_be_there(tmp_path):
 @pytest.mark.parametrize(
     ("code", "said"),
     [
-        (21, "states US survey feet; give --units ft"),
-        (10, "states yards; give --units ft, if that is what it is drawn in, or scale it in CAD"),
+        (21, "states US survey feet; use --units ft"),
+        (10, "states yards; use --units ft, if that is what it is drawn in, or scale it in CAD"),
         (0, "states no unit; use --units with one of in, ft, mm, cm, m"),
     ],
 )  # fmt: skip

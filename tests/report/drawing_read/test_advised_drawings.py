@@ -115,7 +115,7 @@ def say_layers(path: Path) -> None:
     rows = enumerate(zip(UNKNOWN, kinds, strict=True), 1)
     cells = {}
     for row, (layer, kind) in rows:
-        cells |= {f"Layers/{row}/Layer": layer, f"Layers/{row}/Drawn on it": kind}
+        cells |= {f"Layers/{row}/Layer": layer, f"Layers/{row}/Content": kind}
     edit(path, lambda book: put(book, cells))
 
 
@@ -141,8 +141,8 @@ class Kind:
 KINDS = {
     "no unit": Kind(lambda: text_of(plain(code=0)), r"use --units with one of .*\bft\b",
                     then=("--units", "ft")),
-    "survey feet": Kind(lambda: text_of(plain(code=21)), r"give --units (\w+)", then=("--units",)),
-    "feet that say yards": Kind(lambda: text_of(plain(code=10)), r"give --units (\w+)",
+    "survey feet": Kind(lambda: text_of(plain(code=21)), r"use --units (\w+)", then=("--units",)),
+    "feet that say yards": Kind(lambda: text_of(plain(code=10)), r"use --units (\w+)",
                                 then=("--units",)),
     "meters that say inches": Kind(lambda: text_of(plain("m", code=1)),
                                    r"Unit on the page\): (?:ft or )?(m)\b", then=("--units",)),
@@ -155,7 +155,7 @@ KINDS = {
     "layers that nobody knows": Kind(lambda: text_of(plain(layers=UNKNOWN)),
                                      "or --layer NAME=KIND for a layer", then=CHOSEN),
     "layers for the sheet": Kind(lambda: text_of(plain(layers=UNKNOWN)),
-                                 "give the layers on the Layers worksheet", given=("--accept",),
+                                 "list the layers on the Layers worksheet", given=("--accept",),
                                  workbook=say_layers),
     "a layer that is not there": Kind(
         lambda: text_of(plain(layers=UNKNOWN)), r"did you mean '(X-1)'\?",
@@ -165,10 +165,10 @@ KINDS = {
     "open lines": Kind(open_lines, "draw roof, arrays and objects as such in CAD", ours),
     "places that are filled": Kind(ours, "add --replace to overwrite it", before=ours,
                                    then=("--replace",)),
-    "north that is not stated": Kind(lambda: turned(-90.0), "give --rotate in degrees",
+    "north that is not stated": Kind(lambda: turned(-90.0), "use --rotate in degrees",
                                      given=("--rotate", "north"), then=("--rotate", "90")),
     "degrees": Kind(lambda: turned(0.0, 1e-6, (-118.25, 34.05), "m"), "export it in ft or m", ours),
-    "a zip": Kind(zipped, "unpack it and give the DXF in it", ours),
+    "a zip": Kind(zipped, "unpack it and use the DXF in it", ours),
     "a binary DXF": Kind(binary, "save it as DXF in text", ours),
     "half a drawing": Kind(lambda: ours()[:5000], "open it in CAD and save it again", ours),
     "blocks in blocks": Kind(nested, "nested more than 8 deep; explode it", ours),

@@ -20,17 +20,17 @@ pytestmark = pytest.mark.quick
 @pytest.mark.parametrize(
     ("content", "wanted"),
     [
-        ("", ["line 1: not one heading x, y, blocks; give x, y and blocks"]),
-        ("x,x,y,blocks\n", ["line 1: not one heading x; give x, y and blocks"]),
-        ("x,y,blocks\n1,2,3\n\na,,1\n", ["line 4: x is 'a'; give a number",
-                                         "line 4: y is ''; give a number"]),
+        ("", ["line 1: not one heading x, y, blocks; enter x, y and blocks"]),
+        ("x,x,y,blocks\n", ["line 1: not one heading x; enter x, y and blocks"]),
+        ("x,y,blocks\n1,2,3\n\na,,1\n", ["line 4: x is 'a'; enter a number",
+                                         "line 4: y is ''; enter a number"]),
         ("x,y,blocks\n1,inf,2.5\n1,2,-1\n1,2,1e9\n", [
-            "line 2: y is 'inf'; give a number",
-            *(f"line {row}: blocks is {found}; give a whole number from 0 to 10,000"
+            "line 2: y is 'inf'; enter a number",
+            *(f"line {row}: blocks is {found}; enter a whole number from 0 to 10,000"
               for row, found in ((2, "2.5"), (3, "-1"), (4, "1e+09"))),
         ]),
         ("x [m],y [ft],blocks\n", ["line 1: the heading is 'y [ft]', and --units says another"
-                                   " unit; give that of x and y"]),
+                                   " unit; enter that of x and y"]),
         (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8 or UTF-16; save it as one"]),
         ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; add up "
                                                "neighboring blocks"]),
@@ -88,7 +88,7 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     book = make(tmp_path, arrays=arrays(modules=320, module_weight_n=75 * LB))
     type_into(book, {"Arrays/A1/Weight": None})
     assert problems(book) == (
-        "Arrays!K8: weight is missing; give it, or modules, module weight and ballast weight",
+        "Arrays!K8: weight is missing; enter it, or modules, module weight and ballast weight",
     )
     path = tmp_path / "map.csv"
     path.write_text("x,y,blocks\n40,30,300\n80,60,200\n500,0,1\n")  # A1 is 20 to 100, 15 to 75 ft
@@ -111,7 +111,7 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     path.write_text("x,y,blocks\n12.192,12.192,300\n18.288,14.630,200\n")  # in m
     refused = ran(*words, "--replace", exit_code=2)
     assert (
-        "no ballast block of the map is inside an array on the plan; give --units of the map"
+        "no ballast block of the map is inside an array on the plan; use --units of the map"
         in refused
     )
     assert "A1: 500 blocks, 16000 lb" in ran(*words[:3], "m", *words[4:], "--replace")

@@ -176,7 +176,7 @@ def test_a_drawing_without_a_unit_and_polygons_without_their_sheet_are_refused(t
     path = make(tmp_path, clearances=[])
     edit(path, lambda book: book.remove(book["Outlines"]))
     output = run(drawing(tmp_path), tmp_path, "--replace", exit_code=2)
-    assert "Outlines: the sheet is missing, which A1 in the drawing need" in output
+    assert "Outlines: the worksheet is missing, which A1 in the drawing need" in output
     assert "Run roofslip new FOLDER and copy your cells" in output
 
 
@@ -185,7 +185,7 @@ def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
     sketch = Sketch()
     ring = sketch.ring("STRUCTURE", BOX_FT)
     output = run(sketch.saved(tmp_path), new(tmp_path), "--accept", exit_code=2)
-    assert "nothing to fill in: give the layers on the Layers worksheet" in output
+    assert "nothing to fill in: list the layers on the Layers worksheet" in output
     listed = f"a closed line on a layer that is not in Layers: 1 on STRUCTURE ({ring.dxf.handle})"
     assert listed in output
 
@@ -247,9 +247,9 @@ def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
         (("--layer", "ARRAY=arrays"),
          "'ARRAY=arrays' is not NAME=KIND, where KIND is one of array"),
         (("--layer", "=array"), "'=array' is not NAME=KIND"),
-        (("--rotate", "400"), "it is 400 deg; give more than -360 deg and less than 360 deg."),
-        (("--rotate", "nan"), "it is nan deg; give more than"),
-        (("--rotate", "north"), "states no north (GEODATA); give"),
+        (("--rotate", "400"), "it is 400 deg; enter more than -360 deg and less than 360 deg."),
+        (("--rotate", "nan"), "it is nan deg; enter more than"),
+        (("--rotate", "north"), "states no north (GEODATA); use"),
     ],
 )  # fmt: skip
 def test_options_that_say_nothing_are_refused(tmp_path, words, said):
@@ -302,7 +302,7 @@ def test_a_rectangle_left_far_from_the_roof_is_asked_about(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("none.dxf", "no such file; give a DXF drawing"), (".", "is a folder; give a file")],
+    [("none.dxf", "no such file; use a DXF drawing"), (".", "is a folder; use a file")],
 )
 def test_a_drawing_that_is_not_there_is_told(tmp_path, name, said):
     assert said in run(tmp_path / name, new(tmp_path), exit_code=2)

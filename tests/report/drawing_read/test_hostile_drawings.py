@@ -54,15 +54,15 @@ def test_large_files_and_long_names_are_refused(file):
     [
         (b"AC1032\x00\x00", "a DWG drawing"),
         (b"AutoCAD Binary DXF\r\n\x1a\x00", "a binary DXF"),
-        (b"%PDF-1.7\n", "a PDF; give the DXF that it was plotted from"),
-        (b"PK\x03\x04\x14\x00", "a zip; unpack it and give the DXF in it"),
+        (b"%PDF-1.7\n", "a PDF; use the DXF that it was plotted from"),
+        (b"PK\x03\x04\x14\x00", "a zip; unpack it and use the DXF in it"),
         (
             b'\xef\xbb\xbf<?xml version="1.0"?>\n<!-- made -->\n<svg width="9">',
             "an SVG; save it as DXF",
         ),
         (b'<?xml version="1.0"?><kml>', "XML or a web page; export the roof plan as DXF"),
         (b'\n {"type": "FeatureCollection"}', "JSON, such as GeoJSON; export the roof plan as DXF"),
-        (b"\x89PNG\r\n\x1a\n", "a picture; give the drawing as DXF"),
+        (b"\x89PNG\r\n\x1a\n", "a picture; use the drawing as DXF"),
         (b"ISO-10303-21;\n", "an IFC or STEP model; export its roof plan as DXF"),
         (b"\xd0\xcf\x11\xe0\xa1\xb1", "a model of Revit, or an old Office file; export"),
         (b"", "not a DXF drawing"),

@@ -263,7 +263,7 @@ def test_counts_are_filled_in_where_there_is_a_column(tmp_path):
     assert " of at most 18.0 in (457 mm), 6 vertices, " in output
     rows = read(book).inputs["arrays"]
     assert {row["id"]: row["modules"] for row in rows} == COUNTS
-    assert "it is 0; give more than 0." in errors_of("plan", "read", path, book, "--gap", 0, "in")
+    assert "it is 0; enter more than 0." in errors_of("plan", "read", path, book, "--gap", 0, "in")
     book = make(tmp_path, clearances=[])
     edit(book, lambda found: retitle(found, "Arrays", "Modules", ""))
     output_of("plan", "read", layout().saved(tmp_path), book, "--replace")

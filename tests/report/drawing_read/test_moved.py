@@ -268,7 +268,7 @@ def test_a_plan_of_another_size_is_asked_about_and_the_unit_answers(tmp_path):
     meters = (0.0, 1 / FT, (0.0, 0.0), False)
     output = second_day(tmp_path, path, FEET, meters, exit_code=2, unit="m")
     assert (
-        "3.281 times as large as in the workbook; give the unit of the drawing (--units" in output
+        "3.281 times as large as in the workbook; enter the unit of the drawing (--units" in output
     )
     assert "ft, or m if it is so, as it states" in output
     assert path.read_bytes() == before

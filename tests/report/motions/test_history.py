@@ -214,9 +214,9 @@ def test_targets_can_be_pickled(changes):
         assert np.array_equal(here.ordinates(PERIODS), there.ordinates(PERIODS), equal_nan=True)
 
 
-NO_TEXT = "not a text file; give text or CSV"
+NO_TEXT = "not a text file; use text or CSV"
 TOO_MUCH = (
-    "the records to here have more than 64 MB together; give fewer motions, or convert the records"
+    "the records to here have more than 64 MB together; use fewer motions, or convert the records"
     " (roofslip motion convert --help)"
 )
 
@@ -241,7 +241,7 @@ def test_records_of_too_many_bytes_are_refused_by_cell_and_of_fewer_once_one_is_
     path, names = make(tmp_path), ("x", "z", "x2")
     (path.parent / "records" / "x.csv").write_text("0.1\nabc\n0.2\n")
     wrong = cell_address(
-        "<Motions/M1/Horizontal record>: horizontal record: x.csv:2: found 'abc'; give a number"
+        "<Motions/M1/Horizontal record>: horizontal record: x.csv:2: found 'abc'; enter a number"
     )
     read = cell_address(f"<Motions/M2/Horizontal record>: horizontal record: x2.csv: {NO_TEXT}")
     second, third = (cell_address(f"<Motions/M{k}/Horizontal record>: ") + NOT_READ for k in (2, 3))
@@ -282,7 +282,7 @@ def taking(x, y="", **others):
 AGAIN = (
     "<Motions/M2/Horizontal record>: horizontal record repeats the horizontal record at"
     " <Motions/M1/Horizontal record> (equal samples, apart from scale and sign): M2 is M1 again;"
-    " give each motion once"
+    " enter each motion once"
 )
 TRANSVERSE = "record repeats the transverse record at <Motions/M1/Transverse record>"
 CASES = {

@@ -109,7 +109,7 @@ def test_the_location_in_the_identity_of_a_channel_is_no_azimuth(tmp_path):
          " --without-vertical takes the two"),
         ("P-000 P-090 P-180 P-UP", "3 horizontal and 1 vertical of one motion; a set has 2 and 1"),
         ("P-000 P-180 P-UP", "the horizontal components are not perpendicular by their names"),
-        ("P-000 P-090 P-DWN", "P-DWN.csv is positive downward: give it with factor -1, as motion"
+        ("P-000 P-090 P-DWN", "P-DWN.csv is positive downward: enter it with factor -1, as motion"
          " convert --factor -1 writes it"),
     ],
 )  # fmt: skip
@@ -196,7 +196,7 @@ def test_the_heading_tells_where_a_glued_name_ends(tmp_path):
     assert sets == {"RSN9_ABC": [f"RSN9_ABC{end}.AT2" for end in ("180", "270", "UP")]}
     ((what, why),) = left.items()
     assert what == "RSN8_ABCN45E.AT2, RSN8_ABCN45W.AT2, RSN8_ABCDWN.AT2"
-    assert why.startswith("RSN8_ABCDWN.AT2 is positive downward: give it with factor -1")
+    assert why.startswith("RSN8_ABCDWN.AT2 is positive downward: enter it with factor -1")
 
 
 def channel(path, name, component):
@@ -362,28 +362,28 @@ def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
 @pytest.mark.parametrize(
     ("cells", "lines"),
     by_day([
-        (pasted([0.1, "abc", 0.2]), ["Pasted!B5 is 'abc'; give a number"]),
+        (pasted([0.1, "abc", 0.2]), ["Pasted!B5 is 'abc'; enter a number"]),
         (pasted([0.1, "#N/A", 0.2]),
          ["Pasted!B5 is #N/A; correct the formula, or type a value"]),
         (pasted([0.1, None, 0.2]), [f"Pasted!B5 {BLANK}"]),
         (pasted(["x"] * 8),
-         [*(f"Pasted!B{row} is 'x'; give a number" for row in range(4, 9)),
+         [*(f"Pasted!B{row} is 'x'; enter a number" for row in range(4, 9)),
           "... and 3 more cells"]),
         (pasted([0.1, 0.2], header="East"),
-         ["sheet 'Pasted' has no heading 'North' in its first 10 rows; write it above the"
+         ["worksheet 'Pasted' has no heading 'North' in its first 10 rows; write it above the"
           " column"]),
         (pasted([0.1, 0.2], name="Elsewhere!North"),
-         ["'Elsewhere!North' names no sheet of this workbook; give Sheet!Header, or a file"]),
+         ["'Elsewhere!North' names no worksheet of this workbook; enter Sheet!Header, or a file"]),
         (pasted([0.1, 0.2], header="North [m/s2]", name="Pasted!North [m/s2]"),
          ["Pasted!B3 is 'North [m/s2]', but the record units are g; correct one of them"]),
         (pasted([0.1, 0.2], header="North [km/s2]", name="Pasted!North [km/s2]"),
-         ["Pasted!B3 is 'North [km/s2]', which is no acceleration by time; give the column of"
+         ["Pasted!B3 is 'North [km/s2]', which is no acceleration by time; enter the column of"
           " one"]),
         (pasted([0.1, 0.2], header="Total [g]", name="Pasted!Total [g]"),
-         ["Pasted!B3 is 'Total [g]', the magnitude of a vector; give a component"]),
+         ["Pasted!B3 is 'Total [g]', the magnitude of a vector; use a component"]),
         (pasted([0.1, -999, 0.2]),
          ["Pasted!North: sample 2 is -999 where no other exceeds 0.2 g: it is a code for missing"
-          " data; give a record without gaps"]),
+          " data; use a record without gaps"]),
         (pasted([150.0, -290.0, 0.2]),
          ["Pasted!North: the values reach 290 g, and no ground or roof shakes with 10 g: is it"
           " cm/s2? Give the units that they have, or correct them"]),
@@ -392,18 +392,18 @@ def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
           " them"]),
         (timed([0.0, 0.01, 0.02, 0.05]),
          ["Pasted!A7 is 0.05 s, 0.03 s after the row above it, but the typical step is 0.01 s; fill"
-          " in the missing rows, or give the record as a file, which is resampled"]),
+          " in the missing rows, or use the record as a file, which is resampled"]),
         (timed([0.0, 0.01, 0.01, 0.02]),
-         ["Pasted!A6: found time 0.01 s after 0.01 s, with a typical step of 0.01 s; give"
+         ["Pasted!A6: found time 0.01 s after 0.01 s, with a typical step of 0.01 s; enter"
           " increasing times"]),
         (timed([0.0, 1.0, 2.0, 3.0], header="Time [h]"),
-         ["Pasted!A3 is 'Time [h]'; give times in s, ms or min"]),
+         ["Pasted!A3 is 'Time [h]'; enter times in s, ms or min"]),
         (pasted([0.1, 0.2]) | {"Motions/M2/Time step": None},
-         ["'Pasted!North' is a pasted column; give its time step"]),
+         ["'Pasted!North' is a pasted column; enter its time step"]),
         (pasted([0.1, 0.2]) | {"Pasted!D2": "North"},
          ["heading 'North' appears at Pasted!D2 and Pasted!B3; rename one"]),
         (pasted([0.1, 0.2]) | {"Pasted!B300000": 1},
-         ["Pasted!B300000 contains data more than 200,000 rows below the heading; clear it, or give"
+         ["Pasted!B300000 contains data more than 200,000 rows below the heading; clear it, or use"
           " the record as a file"]),
     ], 2),
 )  # fmt: skip

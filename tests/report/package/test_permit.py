@@ -27,11 +27,13 @@ def test_the_table_has_the_displacement_and_four_separations_of_each_array():
         assert list(cells[3:8]) == needed
 
 
-def test_every_open_check_and_clearance_is_on_the_second_sheet():
+def test_every_open_check_is_on_the_first_page_and_every_clearance_on_the_second():
     done = assessments.without_motions()
-    page = pages.page_of(package_data(done, edition=PackageEdition.LETTER), "permit-plan")
-    assert len(page.table("Open").cells) == len(done.open) > 0
-    assert len(page.table("Clearances").cells) == len(done.clearances)
+    package = package_data(done, edition=PackageEdition.LETTER)
+    opened = pages.page_of(package, "permit").table("Open")
+    assert len(opened.cells) == len(done.open) > 0
+    gaps = pages.page_of(package, "permit-plan").table("Clearances")
+    assert len(gaps.cells) == len(done.clearances)
 
 
 def test_what_the_two_sheets_do_not_say_is_refused_in_words(tmp_path):
@@ -43,7 +45,7 @@ def test_what_the_two_sheets_do_not_say_is_refused_in_words(tmp_path):
     assert all(line.startswith("Options!") for line in told)
     for fault in (
         "edition is letter with 7 arrays, of which it has at most six",
-        "edition is letter, which is not by analysis, and motions are given",
+        "edition is letter, which is not by analysis, and motions are listed",
         "edition is letter, and provisions are overridden",
     ):
         assert len([line for line in told if fault in line]) == 1
@@ -54,6 +56,25 @@ def test_more_than_two_sheets_are_refused(project, monkeypatch):
     told = commands.output_of("report", project, exit_code=2)
     assert "edition is letter, of two sheets; what is entered takes 3" in told
     assert not (project / "out").exists()
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize(
+    ("name", "units", "paper"),
+    [
+        ("example", "US", "11 x 17"),
+        ("example", "SI", "A3"),
+        ("conditions", "US", "automatic"),  # 14 open conditions
+        ("conditions", "SI", "automatic"),
+    ],
+)
+def test_two_sheets_have_room_in_both_units_on_large_paper_and_for_many_conditions(
+    tmp_path, name, units, paper
+):
+    path = workbooks.without_motions(tmp_path, name)
+    options = {"Options/Edition": "letter", "Options/Sheet size of the roof plan": paper}
+    workbooks.type_into(path, {**options, "Project/Primary units": units})
+    assert "calc-package.pdf, 2 sheets" in commands.stdout_of("report", tmp_path)
 
 
 @pytest.mark.nightly

@@ -124,7 +124,7 @@ def test_the_example_is_plainly_ok_and_its_first_sheet_says_what_other_inputs_co
     assert [line.split()[-1] for line in lines[1:4]] == ["OK"] * 3
     assert not re.search("condition|warning|note|NG", done.stdout)
     inputs, first = page("example", "inputs"), page("example", "summary")
-    assert "entered, at or below the tests from 0.10 in/s (2.5 mm/s) to 8.00 in/s" in inputs
+    assert "entered, at or below the tested values from 0.10 in/s (2.5 mm/s) to 8.00 in/s" in inputs
     assert inputs.line(
         "With μ = 0.40 at all velocities (all motions rerun), the design displacement of A3"
     )

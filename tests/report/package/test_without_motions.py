@@ -182,11 +182,11 @@ def drawing(folder):
 
 
 CLEARANCES = (
-    clearance("A1", "A2", 8 * FT, "down"),
+    clearance("A1", "A2", 8 * FT, "downslope"),
     clearance("A1", "RTU-1", 6 * FT),
-    clearance("A1", "NORTH", 8 * FT, "up"),
-    clearance("A3", "RTU-2", 5 * FT, "down"),
-    clearance("A3", "EDGE-2", 10 * FT, "across"),
+    clearance("A1", "NORTH", 8 * FT, "upslope"),
+    clearance("A3", "RTU-2", 5 * FT, "downslope"),
+    clearance("A3", "EDGE-2", 10 * FT, "cross-slope"),
 )
 
 

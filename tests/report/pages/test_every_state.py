@@ -25,7 +25,7 @@ LIFTING = projects.motion("UP", np.zeros(300), np.repeat((0.0, -1.4 * projects.G
 TWO = {
     "arrays": [ARRAY("A1", 0.5), ARRAY("A2", 0.5, x=220)],
     "objects": [projects.roof_object("N", "edge with parapet", 0, 320, 270, 271, height=0.8)],
-    "clearances": [GAP("A1", "A2", 120 * FOOT), GAP("A2", "N", 195 * FOOT, "up")],
+    "clearances": [GAP("A1", "A2", 120 * FOOT), GAP("A2", "N", 195 * FOOT, "upslope")],
 }
 ONE = {"arrays": [ARRAY("A1", 0.5)], "objects": [], "clearances": []}
 NARROW = {"clearances": [GAP("A1", "A2", 0.5 * FOOT)]}

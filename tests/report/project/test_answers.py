@@ -238,7 +238,12 @@ def random_rows(pick: random.Random) -> dict[str, list[dict[str, object]]]:
                 cg_height_m=pick.choice([9.0, 12.0]) * INCH, i_p=pick.choice([1.0, 1.0, 1.5]),
             ) | pick.choice(frictions)
         )  # fmt: skip
-    kinds = ("fixed object", "unlike array", *["edge with parapet"] * 2, "edge without parapet")
+    kinds = (
+        "fixed object",
+        "array of different construction",
+        *["edge with parapet"] * 2,
+        "edge without parapet",
+    )
     heights = (17.9, 18.0, 23.9, 24.0, 36.0)
     objects = [
         project_parts.roof_object(f"O{k}", pick.choice(kinds), height=pick.choice(heights) * INCH)

@@ -72,7 +72,7 @@ TRUNCATED = f"not a workbook, or truncated; {REOPEN}"
         (zipped(), f"a zip archive, but not a workbook; {SAVE_AS}"),
         (zipped(**{"a.txt": "a"}), f"a zip archive, but not a workbook; {SAVE_AS}"),
         (zipped(mimetype="x", **{"content.xml": "<a/>"}),
-         f"an OpenDocument sheet (.ods) by its content; {SAVE_AS}"),
+         f"an OpenDocument spreadsheet (.ods) by its content; {SAVE_AS}"),
         (zipped(**{"xl/workbook.bin": b"x"}),
          f"a binary Excel workbook (.xlsb) by its content; {SAVE_AS}"),
     ],
@@ -136,10 +136,10 @@ SPOILED = {
         BOOK, replaced(b"<sheet ", b"<x:sheet "), f"damaged at {BOOK}; {REOPEN}"),
     "two sheets of one name": (
         BOOK, replaced(b'name="Links"', b'name="arrays"'),
-        "two sheets have the name 'arrays'; rename one"),
+        "two worksheets have the name 'arrays'; rename one"),
     "a sheet without a part": (
         BOOK, lambda old: re.sub(rb'(<sheet [^>]*name="Links"[^>]*)r:id="[^"]*"', rb"\1", old),
-        f"sheet 'Links': its part (no name) is missing; {REOPEN}"),
+        f"worksheet 'Links': its part (no name) is missing; {REOPEN}"),
     "cells": (
         "xl/odd.xml", to(b"<a>" + b"<c/>" * MAX_CELLS + b"</a>"),
         f"xl/odd.xml: more than {MAX_CELLS:,} cells and rows; {BESIDE}"),
@@ -180,7 +180,7 @@ def test_tags_are_counted_before_anything_is_parsed(tmp_path):
         ("job/A 101.xlsx", "job/roof.xlsx", "did you mean '{}/job/A 101.xlsx'?"),
         ("job.xlsx", "job", "did you mean '{}/job.xlsx'?"),
         ("job/~$input.xlsx", "job",
-         "give a workbook, or a folder that holds input.xlsx"),
+         "use a workbook, or a folder that holds input.xlsx"),
     ],
 )  # fmt: skip
 def test_a_workbook_that_is_there_is_suggested(tmp_path, there, asked, told):
@@ -190,7 +190,7 @@ def test_a_workbook_that_is_there_is_suggested(tmp_path, there, asked, told):
 
 
 def test_a_missing_file_is_reported(tmp_path):
-    wanted = "give a workbook, or a folder that holds input.xlsx"
+    wanted = "use a workbook, or a folder that holds input.xlsx"
     assert problems(tmp_path / "none.xlsx") == (f"no such file; {wanted}",)
     assert problems(tmp_path) == (f"no such file; {wanted}",)
     os.mkfifo(tmp_path / "input.xlsx")
@@ -374,7 +374,7 @@ def test_a_sheet_whose_part_is_not_there_is_refused_by_name(tmp_path, change, ti
     path = make(tmp_path)
     target = sheet_part(path, title).removeprefix("xl/").encode()
     (line,) = problems(rewritten(path, RELATIONS, replaced(target, change(target))))
-    assert line.startswith(f"sheet '{title}': its part ")
+    assert line.startswith(f"worksheet '{title}': its part ")
     assert line.endswith(f" is missing; {REOPEN}")
 
 

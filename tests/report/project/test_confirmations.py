@@ -81,24 +81,25 @@ def of(section, index, **changes):
 
 
 CHANGES = [
-    (of("arrays", 0, mu=0.42), {"options": "sheet Arrays"}),
-    ({"records": (RECORDS[0], "M2 horizontal ef")}, {"options": "sheet Motions"}),
-    (of("motions", 1, scale_value=2.1), {"options": "sheet Motions"}),
-    ({"site": {"s_ds_g": 1.6}}, {"site": "sheet Site", "options": "sheet Site"}),
+    (of("arrays", 0, mu=0.42), {"options": "worksheet Arrays"}),
+    ({"records": (RECORDS[0], "M2 horizontal ef")}, {"options": "worksheet Motions"}),
+    (of("motions", 1, scale_value=2.1), {"options": "worksheet Motions"}),
+    ({"site": {"s_ds_g": 1.6}}, {"site": "worksheet Site", "options": "worksheet Site"}),
     (of("friction_runs", 0, mu=0.47),
-     {"friction_tests": "sheet Friction tests", "options": "sheet Friction tests"}),
-    ({"friction_tests": {"report": "FT-2"}}, {"options": "sheet Friction tests"}),
-    (of("clearances", 2, provided_m=96 * INCH), {"project": "sheet Clearances"}),
-    (of("clearances", 0, source="drawing"), {"project": "sheet Clearances"}),
-    ({"target": {"t_l_s": 6.0}}, {"options": "sheet Site"}),
-    ({"target": {"to_s": 3.0}}, {"options": "sheet Building"}),
-    ({"links": [project_parts.links("A1", "0.40, 0.45", 50)]}, {"options": "sheet Links"}),
-    ({"overrides": []}, {"options": "sheet Options", "confirmation": "sheet Options"}),
-    ({"confirmation": {"by": "MT"}}, {"confirmation": "sheet Options"}),
-    ({"site": {"rule_set": "ASCE 7-16"}}, {"options": "sheet Site", "confirmation": "sheet Site"}),
-    ({"site": {"building_code_year": 2019}}, {"confirmation": "sheet Site"}),
+     {"friction_tests": "worksheet Friction tests", "options": "worksheet Friction tests"}),
+    ({"friction_tests": {"report": "FT-2"}}, {"options": "worksheet Friction tests"}),
+    (of("clearances", 2, provided_m=96 * INCH), {"project": "worksheet Clearances"}),
+    (of("clearances", 0, source="drawing"), {"project": "worksheet Clearances"}),
+    ({"target": {"t_l_s": 6.0}}, {"options": "worksheet Site"}),
+    ({"target": {"to_s": 3.0}}, {"options": "worksheet Building"}),
+    ({"links": [project_parts.links("A1", "0.40, 0.45", 50)]}, {"options": "worksheet Links"}),
+    ({"overrides": []}, {"options": "worksheet Options", "confirmation": "worksheet Options"}),
+    ({"confirmation": {"by": "MT"}}, {"confirmation": "worksheet Options"}),
+    ({"site": {"rule_set": "ASCE 7-16"}},
+     {"options": "worksheet Site", "confirmation": "worksheet Site"}),
+    ({"site": {"building_code_year": 2019}}, {"confirmation": "worksheet Site"}),
     ({"site": {"roof_height_m": 9.0}} | of("arrays", 0, mu=0.42),
-     {"options": "sheets Site, Arrays"}),
+     {"options": "worksheets Site, Arrays"}),
 ]  # fmt: skip
 
 
@@ -134,7 +135,7 @@ def test_the_order_of_rows_is_no_change_and_a_record_in_the_order_of_rows_holds(
     tests = assessments.TESTS | {"tests_covered": text}
     assert outdated(given(**rows, friction_tests=tests), RECORDS).outdated == {}
     other = outdated(given(friction_runs=rows["friction_runs"][:2], friction_tests=tests), RECORDS)
-    assert other.outdated == {"friction_tests": "sheet Friction tests"}
+    assert other.outdated == {"friction_tests": "worksheet Friction tests"}
 
 
 def test_another_date_is_a_new_confirmation():
@@ -153,7 +154,7 @@ def test_a_record_that_was_typed_over_covers_nothing(text):
     if text.endswith(": "):
         assert "options" not in found  # blank: the next report fills it in
     else:
-        assert found["options"].startswith("sheets Site, Arrays")
+        assert found["options"].startswith("worksheets Site, Arrays")
 
 
 @pytest.mark.parametrize("units", by_day(UnitsFirst, 1))

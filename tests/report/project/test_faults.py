@@ -44,11 +44,11 @@ def together(folder, cases, touched):
     return [reported[number] for number in numbers]
 
 
-NUMBER = "give a number from 0 to 1.5"
-WEIGHT = "give a number greater than 0 [lb]"
+NUMBER = "enter a number from 0 to 1.5"
+WEIGHT = "enter a number greater than 0 [lb]"
 CONTROL = "with control characters; retype it"
-FORMATTED = "give a number of 0 or more, formatted as a number"
-PARAPET = "for the qualifying parapet height above the roof [in]; give a number from 0"
+FORMATTED = "enter a number of 0 or more, formatted as a number"
+PARAPET = "for the qualifying parapet height above the roof [in]; enter a number from 0"
 
 # Of each cell, what is typed there, and how the line goes on after `its label is `.
 SINGLE_CELLS = {
@@ -70,22 +70,22 @@ SINGLE_CELLS = {
         dt.time(2, 30): f"a date or time (02:30:00); {FORMATTED}",
     },
     "Arrays/A2/Slope": {
-        "1/2:12": "'1/2:12'; give a number of 0 or more, or choose the slope unit in/12",
+        "1/2:12": "'1/2:12'; enter a number of 0 or more, or choose the slope unit in/12",
     },
     "Friction tests/1/Kinetic coefficient": {
-        "0.45 (dry)": "'0.45 (dry)'; give a number from 0 to 1.5",
+        "0.45 (dry)": "'0.45 (dry)'; enter a number from 0 to 1.5",
     },
-    "Friction tests/1/Velocity": {-1: "-1; give a number of 0 or more [in/s]"},
+    "Friction tests/1/Velocity": {-1: "-1; enter a number of 0 or more [in/s]"},
     "Links/1/Block friction": {
-        "0.4," * 51: "204 characters long; give text of at most 200 characters",
+        "0.4," * 51: "204 characters long; enter text of at most 200 characters",
     },
-    "Arrays/A1/x from": {-1e300: "-1e+300; give a number [ft], below 1e+15 in size"},
+    "Arrays/A1/x from": {-1e300: "-1e+300; enter a number [ft], below 1e+15 in size"},
     "Arrays/A1/ID": {
-        "A" * 41: f"'{'A' * 41}'; give text of at most 40 characters",
-        None: "missing; give text such as 'A1'", "\u200b": "missing; give text such as 'A1'",
+        "A" * 41: f"'{'A' * 41}'; enter text of at most 40 characters",
+        None: "missing; enter text such as 'A1'", "\u200b": "missing; enter text such as 'A1'",
     },
     "Arrays/A1/Friction test report": {
-        "x" * 2001: "2001 characters long; give text of at most 2000 characters",
+        "x" * 2001: "2001 characters long; enter text of at most 2000 characters",
     },
     "Project/Project name": {
         "A_x0007_B": f"'A?B', {CONTROL}",
@@ -99,18 +99,18 @@ SINGLE_CELLS = {
     },
     "Project/Date": {
         "3/5/2026": "'3/5/2026'; write 2026-03-05 or 2026-05-03",
-        True: "TRUE; give a date such as 2026-03-05",
+        True: "TRUE; enter a date such as 2026-03-05",
         # in a cell that is formatted as a date
-        3.5: "1900-01-03, before 2000-01-01; give a date such as 2026-03-05",
+        3.5: "1900-01-03, before 2000-01-01; enter a date such as 2026-03-05",
     },
-    "Site/Number of stories": {1.5: "1.5; give a whole number from 1 to 200"},
+    "Site/Number of stories": {1.5: "1.5; enter a whole number from 1 to 200"},
     "Site/Rule set": {"ASCE 7-10": "'ASCE 7-10'; choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22"},
     "Clearances/1/Fire pathway": {
-        "no": "'no'; give a number of 0 or more [in], or none",
-        -1: "-1; give a number of 0 or more [in], or none",
+        "no": "'no'; enter a number of 0 or more [in], or none",
+        -1: "-1; enter a number of 0 or more [in], or none",
     },
-    "Motions/M2/ID": {" \u200b\ufeff\u2060 ": "missing; give text such as 'M1'"},
-    "Motions/M1/Time step": {0: "0; give a number greater than 0, at most 1 [s]"},
+    "Motions/M2/ID": {" \u200b\ufeff\u2060 ": "missing; enter text such as 'M1'"},
+    "Motions/M1/Time step": {0: "0; enter a number greater than 0, at most 1 [s]"},
     "Options/1/Value": {1e9: f"1e+09 {PARAPET} to 240"},
 }  # fmt: skip
 CONTENTS = [(name, typed, line) for name, of in SINGLE_CELLS.items() for typed, line in of.items()]
@@ -132,7 +132,10 @@ def test_an_invalid_cell_is_named_with_its_content_and_what_to_give(of_cells, nu
 
 
 NO_CLEARANCE = dict.fromkeys(("Array", "Object", "Direction", "Provided clearance", "Fire pathway"))
-IN_ARRAYS, AND_OBJECTS = "which is not in Arrays; give one of", "which is not in Objects or Arrays;"
+IN_ARRAYS, AND_OBJECTS = (
+    "which is not in Arrays; enter one of",
+    "which is not in Objects or Arrays;",
+)
 SPECTRUM = row_cells("Spectrum/1", {"Period": 8, "Horizontal": 8})
 SPECTRUM |= row_cells("Spectrum/2", {"Period": 9, "Horizontal": 9})
 NEEDS = "<Motions/M1/Scaling> scales a ground motion to the design spectrum, which requires S_D1"
@@ -147,14 +150,14 @@ FOUR_SIDES = ("x from", "x to", "y from", "y to")
 # Cells that are changed together, and all resulting lines.
 CONTRADICTIONS = [
     ({"Arrays/A2/ID": "a1", "Clearances/1/Object": "RTU-1"},
-     "Arrays/A2/ID is 'a1', already used at <Arrays/A1/ID>; give a unique ID",
+     "Arrays/A2/ID is 'a1', already used at <Arrays/A1/ID>; enter a unique ID",
      *(f"Clearances/{row}/Array is 'A2', {IN_ARRAYS} A1, a1" for row in (3, 4, 5))),
     ({"Objects/OLD/ID": "A1", "Clearances/4/Object": "S", "Clearances/4/Provided clearance": 9},
-     "Objects/OLD/ID is 'A1', already used at <Arrays/A1/ID>; give a unique ID"),
+     "Objects/OLD/ID is 'A1', already used at <Arrays/A1/ID>; enter a unique ID"),
     ({"Clearances/3/Object": "rtu-1"},
      f"Clearances/3/Object is 'rtu-1', {AND_OBJECTS} did you mean 'RTU-1'?"),
     ({"Clearances/1/Object": "A1"},
-     "Clearances/1/Object is 'A1', the array itself; give an object or another array"),
+     "Clearances/1/Object is 'A1', the array itself; enter an object or another array"),
     ({"Clearances/4/Object": "RTU-1", "Clearances/4/Provided clearance": 50},
      "Clearances/4/Array is 'A2', with the same object and direction as at <Clearances/3/Array>;"
      " delete one"),
@@ -168,46 +171,46 @@ CONTRADICTIONS = [
     ({"Arrays/A1/x to": 120} | row_cells("Clearances/1", NO_CLEARANCE),
      "<Arrays/A1/x from>: A1 and A2 at <Arrays/A2/x from> overlap in plan; correct one of them"),
     ({"Site/Risk category": "IV", "Site/Importance factor I_e": 1.25},
-     "Site/Importance factor I_e is 1.25; give at least 1.5 for risk category IV"),
-    ({"Site/S_DS": None}, "Site/S_DS is missing; give S_DS, S_MS, or both S_S and F_a"),
-    ({"Arrays/A2/Slope": 120}, "Arrays/A2/Slope is 120 percent; give 0 to less than 100 percent"),
+     "Site/Importance factor I_e is 1.25; enter at least 1.5 for risk category IV"),
+    ({"Site/S_DS": None}, "Site/S_DS is missing; enter S_DS, S_MS, or both S_S and F_a"),
+    ({"Arrays/A2/Slope": 120}, "Arrays/A2/Slope is 120 percent; enter 0 to less than 100 percent"),
     (row_cells("Arrays/A2", {"Friction rate": 20, "Static friction": 0.4}),
-     "Arrays/A2/High-velocity friction is missing; give high-velocity friction and friction rate,"
+     "Arrays/A2/High-velocity friction is missing; enter high-velocity friction and friction rate,"
      " or neither",
-     "Arrays/A2/Static friction is 0.4; give the friction coefficient, 0.45, or more"),
+     "Arrays/A2/Static friction is 0.4; enter the friction coefficient, 0.45, or more"),
     ({"Objects/N/Height": None},
-     "Objects/N/Height is missing; give the parapet's height above the roof"),
+     "Objects/N/Height is missing; enter the parapet's height above the roof"),
     ({"Objects/RTU-1/x to": None},
-     "Objects/RTU-1/x to is missing; give all four sides of the rectangle, or none"),
+     "Objects/RTU-1/x to is missing; enter all four sides of the rectangle, or none"),
     ({"Objects/RTU-1/y to": 70},
-     "Objects/RTU-1/y to is 70.00 ft (21.34 m); give more than y from in <Objects/RTU-1/y from>,"
+     "Objects/RTU-1/y to is 70.00 ft (21.34 m); enter more than y from in <Objects/RTU-1/y from>,"
      " 80.00 ft (24.38 m)"),
     ({"Motions/M3/Factor or PPA": None},
-     "Motions/M3/Factor or PPA is missing; give the factor, or the PPA in g"),
+     "Motions/M3/Factor or PPA is missing; enter the factor, or the PPA in g"),
     ({"Motions/M1/Transverse record": "records/x.csv"},
-     "Motions/M1/Transverse record is 'records/x.csv', the same as the horizontal record; give"
+     "Motions/M1/Transverse record is 'records/x.csv', the same as the horizontal record; use"
      " another record"),
     (row_cells("Motions/M1", {"Scaling": "target spectrum", "Factor or PPA": 2}),
      "Motions/M1/Factor or PPA is 2, but scaling is 'target spectrum'; change the scaling or leave"
      " this blank"),
     (row_cells("Motions/M1", {"Start time": 1.5, "End time": 1.5}),
-     "Motions/M1/End time is 1.5 s; give 2.5 s or more"),
+     "Motions/M1/End time is 1.5 s; enter 2.5 s or more"),
     (row_cells("Motions/M1", {"High-pass corner": 20, "Low-pass corner": 20}),
-     "Motions/M1/Low-pass corner is 20 Hz; give more than the high-pass corner, 20 Hz"),
+     "Motions/M1/Low-pass corner is 20 Hz; enter more than the high-pass corner, 20 Hz"),
     ({"Motions/M2/Recorded at": "ground"},
-     "Building/Period T1 is missing; give it, or a structure type: a motion is recorded at the"
+     "Building/Period T1 is missing; enter it, or a structure type: a motion is recorded at the"
      " ground"),
     ({"Building/Period T1": 0.2, "Building/Period T2": 0.3},
-     "Building/Period T2 is 0.3 s; give at most period T1, 0.2 s, or leave it blank"),
+     "Building/Period T2 is 0.3 s; enter at most period T1, 0.2 s, or leave it blank"),
     ({"Building/Period T1": 0.2, "Motions/M2/Recorded at": "ground", "Site/Number of stories": 101},
-     "Site/Number of stories is 101, more than the 100 of the building model; give roof motions"),
+     "Site/Number of stories is 101, more than the 100 of the building model; use roof motions"),
     (SPECTRUM | {"Spectrum/2/Period": 8},
-     "Spectrum/2/Period is 8 s, already given at <Spectrum/1/Period>; give each period once"),
+     "Spectrum/2/Period is 8 s, already entered at <Spectrum/1/Period>; enter each period once"),
     (SPECTRUM | {"Motions/M1/Scaling": "target spectrum"},
      "<Spectrum/heading/Period>: periods range from 8 to 9 s, but motions are scaled over 0.2 to"
      " 5 s; add rows, or change the scaling periods"),
     (row_cells("Options", {"Confirmed by": "RG", "Confirmed rule set": "SEAOC PV1-2012"}),
-     *(f"Options/{label} is missing; give all five cells of the confirmation, or none"
+     *(f"Options/{label} is missing; enter all five cells of the confirmation, or none"
        for label in ("Confirmed on", "Confirmed edition of ASCE 7", "Confirmed building code"))),
     (row_cells("Motions/M1", {"Scaling": "target spectrum", "High-pass corner": 0.5}),
      "Motions/M1/High-pass corner is 0.5 Hz, a period of 2 s, but the longest scaling period is"
@@ -217,20 +220,20 @@ CONTRADICTIONS = [
      *(f"Site/{label} is missing; {NEEDS}, or S_1 and F_v, and T_L"
        for label in ("F_v", "Long-period transition T_L"))),
     ({"Site/Long-period transition T_L": 0.5, "Site/F_v": 1.7},
-     "Site/Long-period transition T_L is 0.5 s; give more than T_S = S_D1/S_DS = 0.507 s"),
+     "Site/Long-period transition T_L is 0.5 s; enter more than T_S = S_D1/S_DS = 0.507 s"),
     (row_cells("Options/2", {"Provision": "parapet_height_in", "Value": 20, "Reason": "x"}),
      "Options/2/Provision is 'Qualifying parapet height above the roof', already given"
      " at <Options/1/Provision>; delete one"),
     ({"Site/Latitude": 34.0},
-     "Site/Longitude is missing; give latitude and longitude, or neither"),
+     "Site/Longitude is missing; enter latitude and longitude, or neither"),
     ({"Site/S_S": 2.4},
-     "Site/S_DS is 1.566 g; give at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for site class"
+     "Site/S_DS is 1.566 g; enter at least 1.6 g, which is 2/3 F_a S_S with F_a of 1 for site class"
      " 'D' (ASCE 7-16 Table 11.4-1†), or select 'site-specific analysis' as basis of seismic"
      " parameters and enter its report"),
     (roof(25, 300, 0, 74),
-     "Arrays/A1/x from is 20.00 ft (6.10 m), outside the roof; give 25.00 ft (7.62 m) or more, or"
+     "Arrays/A1/x from is 20.00 ft (6.10 m), outside the roof; enter 25.00 ft (7.62 m) or more, or"
      " correct the outline at <Building/Roof x from>",
-     *(f"Arrays/{array}/y to is 75.00 ft (22.86 m), outside the roof; give 74.00 ft (22.56 m) or"
+     *(f"Arrays/{array}/y to is 75.00 ft (22.86 m), outside the roof; enter 74.00 ft (22.56 m) or"
        " less, or correct the outline at <Building/Roof y to>" for array in ("A1", "A2"))),
 ]  # fmt: skip
 
@@ -285,7 +288,7 @@ def test_all_errors_are_reported_together_in_the_order_of_the_sheets(tmp_path):
 @pytest.mark.nightly
 def test_thousands_of_overlaps_and_settings_given_twice_are_told(tmp_path):
     assert problems(make(tmp_path, clearances=[], arrays=[])) == with_addresses(
-        "<Arrays/heading/ID>: no array is given; fill in at least one row"
+        "<Arrays/heading/ID>: no array is entered; fill in at least one row"
     )
     assert read_workbook(make(tmp_path, motions=[])).input.motions == ()
     twice = {"Site!A90": "S_DS *", "Site!B90": 0.2, "Site!A91": "S_1"}  # S_1 is beside nothing
@@ -312,10 +315,10 @@ LOW_SDC = "Prescriptive displacement in SDC A, B, C"
 # Cells that are changed, each case in a workbook of its own, and all resulting lines.
 TYPED = [
     ({"Project/Primary units": "SI", "Arrays/A1/y to": 10},
-     "Arrays/A1/y to is 3.05 m (10.00 ft); give more than y from in <Arrays/A1/y from>, 4.57 m"
+     "Arrays/A1/y to is 3.05 m (10.00 ft); enter more than y from in <Arrays/A1/y from>, 4.57 m"
      " (15.00 ft)"),
     # The clearance to an array with an unreadable plan is not checked.
-    ({"Arrays/A2/x to": "abc"}, "Arrays/A2/x to is 'abc'; give a number [ft]"),
+    ({"Arrays/A2/x to": "abc"}, "Arrays/A2/x to is 'abc'; enter a number [ft]"),
     # An optional column that is renamed is not ignored.
     ({"Motions/heading/Vertical record": "Vertical file"},
      "<Motions/heading/Vertical record>: heading 'Vertical record' is missing, 'Vertical file'"

@@ -39,7 +39,7 @@ def warnings(data):
 CASES = [
     ("arrays", 0, {"weight_n": 30 * LB}, "weight A1",
      "weight is 30 lb (0.13 kN), 0.0 psf (0.00 kPa) on the plan area; 1.0 psf (0.05 kPa) to 30.0"
-     " psf (1.44 kPa) is usual: correct the weight, its unit, or the plan"),
+     " psf (1.44 kPa) is typical: correct the weight, its unit, or the plan"),
     ("arrays", 0, {"slope_value": 25.0, "mu": 0.46}, "friction A1",
      "friction coefficient is 0.46, not more than the tangent of the slope, 0.466: the array slides"
      " under its own weight; correct one of them"),
@@ -48,10 +48,10 @@ CASES = [
     ("site", None, {"roof_height_m": 37 * FT}, "height z",
      "height of the array z is 37.00 ft (11.28 m), above the structure height h of 36.00 ft (10.97"
      " m); correct one of them"),
-    ("clearances", 1, {"direction": "up"}, "direction A1 to S up",
-     "direction is 'up', but S lies 'down' from A1 in plan; correct the direction, the plan,"
-     " or the downslope direction"),
-    ("clearances", 0, {"provided_m": 10 * INCH}, "clearance A1 to A2 across",
+    ("clearances", 1, {"direction": "upslope"}, "direction A1 to S upslope",
+     "direction is 'upslope', but S lies 'downslope' from A1 in plan; correct the direction, the"
+     " plan, or the downslope direction"),
+    ("clearances", 0, {"provided_m": 10 * INCH}, "clearance A1 to A2 cross-slope",
      "provided clearance is 10.0 in (254 mm), but A1 and A2 are 120.0 in (3048 mm) apart in plan;"
      " correct it or the plan"),
 ]  # fmt: skip
@@ -71,12 +71,12 @@ def clearances_divided(*ratios):
 )
 def test_clearances_in_one_wrong_unit_are_one_warning(ratio, words):
     two = warnings(clearances_divided(ratio, ratio))
-    assert list(two) == ["clearance A1 to A2 across", "clearance A1 to S down"]
+    assert list(two) == ["clearance A1 to A2 cross-slope", "clearance A1 to S downslope"]
     found = warnings(clearances_divided(*[ratio] * 5))
     (name,) = (name for name in found if name.startswith("clearance"))
     assert name == f"clearances {words.partition(': ')[2].removesuffix('?')}"
     assert found[name] == (
-        f"four clearances are {words} The first is A1 to A2 across; correct them or the plan"
+        f"four clearances are {words} The first is A1 to A2 cross-slope; correct them or the plan"
     )
 
 
@@ -99,7 +99,9 @@ def test_an_improbable_value_gives_one_warning(section, index, change, name, tex
 def test_an_object_far_from_the_roof_or_else_from_the_largest_array_is_asked_about(
     far_ft, roof, text
 ):
-    old = {"id": "OLD", "kind": "unlike array"} | sides(far_ft, far_ft + 10, 20, 30)
+    old = {"id": "OLD", "kind": "array of different construction"} | sides(
+        far_ft, far_ft + 10, 20, 30
+    )
     items = [old, *(row for row in project().model_dump()["objects"] if row["id"] != "OLD")]
     clearances = [row for row in project().model_dump()["clearances"] if row["object"] != "OLD"]
     found = warnings(project(objects=items, roof=roof, clearances=clearances))
@@ -128,11 +130,11 @@ def test_revisions_without_a_row_and_overrides_beyond_their_range_give_warnings(
     found = warnings(overridden(4.01, 29.0))
     assert list(found) == ["override separation_edge", "override prescriptive_factor_in"]
     assert found["override separation_edge"] == (
-        "value is 4.01 for the separation to an edge without qualifying parapet / design"
-        " displacement; 0.75 to 4 is usual: correct the value or its unit"
+        "value is 4.01 for the separation factor, edge without qualifying parapet; 0.75 to 4 is"
+        " typical: correct the value or its unit"
     )
     assert "value is 29 for the " in found["override prescriptive_factor_in"]
-    assert " 30 to 120 is usual" in found["override prescriptive_factor_in"]
+    assert " 30 to 120 is typical" in found["override prescriptive_factor_in"]
     assert warnings(overridden(0.75, 30.0)) == warnings(overridden(4.0, 120.0)) == {}
 
 
@@ -181,11 +183,13 @@ def test_an_object_at_a_corner_lies_in_both_directions():
     rows = [dict(row) for row in project().model_dump()["objects"]]
     # 10 ft to the right of A2 and 10 ft above it.
     rows[0] |= {"x_from_m": 210 * FT, "x_to_m": 215 * FT, "y_from_m": 85 * FT, "y_to_m": 90 * FT}
-    for direction in ("up", "across"):
+    for direction in ("upslope", "cross-slope"):
         gap = {"array": "A2", "object": "RTU-1", "direction": direction, "provided_m": 169 * INCH}
         assert warnings(project(objects=rows, clearances=[gap])) == {}
-    gap["direction"] = "down"
-    assert list(warnings(project(objects=rows, clearances=[gap]))) == ["direction A2 to RTU-1 down"]
+    gap["direction"] = "downslope"
+    assert list(warnings(project(objects=rows, clearances=[gap]))) == [
+        "direction A2 to RTU-1 downslope"
+    ]
 
 
 @pytest.mark.quick
@@ -290,7 +294,7 @@ def test_a_sample_far_above_all_others_gives_a_warning_that_names_it(tmp_path, i
     found = of_records(path, x=["acc_g", *(f"{value:.5f}" for value in values)])
     assert found["spike M1 horizontal"] == (
         f"records/x.csv: {which} 9.31 g, and no other is more than 0.3 g; correct the file, or"
-        " give another record"
+        " use another record"
     )
 
 
@@ -298,14 +302,14 @@ def test_a_sample_far_above_all_others_gives_a_warning_that_names_it(tmp_path, i
     ("section", "index", "change", "name", "text"),
     [
         ("arrays", 0, {"cg_height_m": 0.75 * INCH}, "usual CG height A1",
-         "CG height is 0.75 in; 4 to 36 in is usual: correct the value or its unit"),
+         "CG height is 0.75 in; 4 to 36 in is typical: correct the value or its unit"),
         ("arrays", 1, {"mu": 0.2}, "usual friction coefficient A2",
-         "friction coefficient is 0.2; 0.3 to 0.8 is usual: correct the value or its unit"),
-        ("clearances", 0, {"provided_m": 5 * INCH}, "usual provided clearance A1 to A2 across",
-         "provided clearance is 5 in; 6 to 600 in is usual"),
+         "friction coefficient is 0.2; 0.3 to 0.8 is typical: correct the value or its unit"),
+        ("clearances", 0, {"provided_m": 5 * INCH}, "usual provided clearance A1 to A2 cross-slope",
+         "provided clearance is 5 in; 6 to 600 in is typical"),
         ("motions", 2, {"scale_value": 14.0}, "usual factor or PPA M3",
-         "factor or PPA is 14; 0.2 to 5 is usual"),
-        ("site", None, {"s_1_g": 0.02}, "usual S_1", "S_1 is 0.02 g; 0.03 to 1.5 g is usual"),
+         "factor or PPA is 14; 0.2 to 5 is typical"),
+        ("site", None, {"s_1_g": 0.02}, "usual S_1", "S_1 is 0.02 g; 0.03 to 1.5 g is typical"),
     ],
 )  # fmt: skip
 def test_a_number_outside_its_usual_range_gives_a_warning(section, index, change, name, text):
@@ -318,7 +322,7 @@ def test_a_number_outside_its_usual_range_gives_a_warning(section, index, change
 def test_ranges_are_in_the_units_that_come_first_and_include_their_limits():
     metric = project().project.model_dump() | {"units_first": "SI"}
     (finding,) = unusual(project(project=metric, arrays=arrays(cg_height_m=0.05)))
-    assert finding.text.startswith("CG height is 50 mm; 101.6 to 914.4 mm is usual")
+    assert finding.text.startswith("CG height is 50 mm; 101.6 to 914.4 mm is typical")
     for inches in (4, 36):
         assert list(unusual(row_changed("arrays", 0, cg_height_m=inches * INCH))) == []
     for kind, count in ((ObjectKind.EDGE_WITHOUT_PARAPET, 0), (ObjectKind.EDGE_WITH_PARAPET, 1)):
@@ -326,9 +330,9 @@ def test_ranges_are_in_the_units_that_come_first_and_include_their_limits():
         assert len(list(unusual(data))) == count
 
 
-IS_WET, NUMBER = "friction coefficient is 'wet'", "give a number from 0 to 1.5"
+IS_WET, NUMBER = "friction coefficient is 'wet'", "enter a number from 0 to 1.5"
 WRONG = f"{IS_WET}; {NUMBER}"
-OTHER = "weight is 0; give a number greater than 0 [lb]"
+OTHER = "weight is 0; enter a number greater than 0 [lb]"
 
 
 @pytest.mark.quick
@@ -375,9 +379,11 @@ def test_typed_semicolons_and_problems_without_a_cell_are_shown_on_the_page(tmp_
     path = type_into(make(tmp_path), {MU.format("A1"): "wet; dry"})
     (found,) = shown_problems(path, refused(path))
     assert (found["found"], found["remedy"]) == ("friction coefficient is 'wet; dry'", NUMBER)
-    error = InputError([Problem("one row is given", "give two", "Spectrum"), "no file; give one"])
+    error = InputError(
+        [Problem("one row is entered", "enter two", "Spectrum"), "no file; enter one"]
+    )
     found = shown_problems(tmp_path / "none.xlsx", error)
     shown = [(each["found"], each["remedy"]) for each in found]
-    assert shown == [("Spectrum: one row is given", "give two"), ("no file", "give one")]
-    assert error.problems == ("Spectrum: one row is given; give two", "no file; give one")
+    assert shown == [("Spectrum: one row is entered", "enter two"), ("no file", "enter one")]
+    assert error.problems == ("Spectrum: one row is entered; enter two", "no file; enter one")
     assert pickle.loads(pickle.dumps(error)).parts == error.parts

@@ -58,7 +58,7 @@ def test_records_are_listed_with_their_hashes(shaken):
     assert z.peak_g == pytest.approx(0.25, abs=1e-4)
 
 
-WITHIN = "give a file in the workbook's folder, such as records/m1-x.csv"
+WITHIN = "use a file in the workbook's folder, such as records/m1-x.csv"
 NEARLY = {
     "records/long_nmae.csv": "csv", "records/Long_Name.CSV": "csv", "records/long_name.at": "at2",
     "recs/long_name.at2": "at2", "long_name.csv | EW": "csv",
@@ -95,9 +95,9 @@ REFUSED = [
     ("loop.csv", f"'loop.csv' cannot be found; {WITHIN}"),
     ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
     ("pipe.csv", f"'pipe.csv' is not a file; {WITHIN}"),
-    ("big.csv", "'big.csv' has 65 MB; give at most 64 MB"),
+    ("big.csv", "'big.csv' has 65 MB; use at most 64 MB"),
     ("input.xlsx",
-     "input.xlsx: not a text file; a zip or a workbook; unpack it, or save its sheet as CSV"),
+     "input.xlsx: not a text file; a zip or a workbook; unpack it, or save its worksheet as CSV"),
 ]  # fmt: skip
 
 
@@ -133,7 +133,7 @@ def timed(step, count):
 CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
     f"{0.01 * i:.2f},{0.003 * i:.3f},{0.006 * i:.3f},{0.009 * i:.3f}\n" for i in range(101)
 )
-ONE_OF = "give one by name or number: 1 East; 2 North; 3 Up"
+ONE_OF = "use one by name or number: 1 East; 2 North; 3 Up"
 AS_IN_FILE = row_cells("Motions/M1", {"Record units": None, "Time step": None})
 PART = "0.1\n" * 100 + "0\n" * 100
 STILL = {"Motions/M2/Horizontal record": "records/still.csv"}
@@ -143,7 +143,7 @@ NO_PEAK = "is all zeros and cannot be scaled to a"
 
 # Records, cells, and the resulting lines.
 FAULTS = [
-    ({"z": "0.1\nabc\n0.2\n"}, {}, f"{VERTICAL}: z.csv:2: found 'abc'; give a number"),
+    ({"z": "0.1\nabc\n0.2\n"}, {}, f"{VERTICAL}: z.csv:2: found 'abc'; enter a number"),
     ({"x": timed(0.01, 150), "z": timed(0.02, 100)}, {"Motions/M1/Time step": None},
      f"{VERTICAL} has a time step of 0.02 s, but the horizontal record has 0.01 s; make them"
      " equal"),
@@ -158,13 +158,13 @@ FAULTS = [
        f"{FIRST} {NO_PEAK} {scaling}; change the record or scaling")
       for scaling, scale in (("PPA", 1), ("target spectrum", None))),
     # A verdict of OK followed from any of these.
-    ({"still": "0\n" * 200}, STILL, f"{SECOND} is all zeros; give a record of the shaking"),
-    *(({"still": samples}, STILL, f"{SECOND} lasts {lasts}; give a record of 1 s or more")
+    ({"still": "0\n" * 200}, STILL, f"{SECOND} is all zeros; use a record of the shaking"),
+    *(({"still": samples}, STILL, f"{SECOND} lasts {lasts}; use a record of 1 s or more")
       for samples, lasts in (("0.1\n-0.1\n", "0.01 s as run (2 samples)"),
                              ("0.1\n-0.1\n" * 50, "0.99 s as run (100 samples)"))),
     # Most of the weight was gone, or the block was pushed downslope by 1 g.
     ({"still": "1.1\n0.9\n" * 100}, STILL,
-     f"{SECOND} has a mean of 1 g: gravity is in it; give it without, or remove the mean by the"
+     f"{SECOND} has a mean of 1 g: gravity is in it; use it without, or remove the mean by the"
      " column Baseline"),
 ]  # fmt: skip
 
@@ -182,16 +182,16 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, number):
     by_day([
         # Units that neither file nor sheet states are requested; those that differ are reported.
         ({"Record units": "from file"},
-         {"Record units": "give units, one of", "Record units ": "give units, one of"}),
+         {"Record units": "enter units, one of", "Record units ": "enter units, one of"}),
         ({"Horizontal record": "records/all.csv | 1", "Vertical record": None,
           "Record units": "cm/s2"},
-         {"Record units": "units are cm/s2; give the units of the file, or 'from file'"}),
+         {"Record units": "units are cm/s2; enter the units of the file, or 'from file'"}),
         ({"Horizontal record": "records/all.csv | 1", "Vertical record": None, "Time step": 0.02,
           "Record units": "from file"},
-         {"Time step": "but the one given is 0.02 s; give the time step of the file, or leave it"
+         {"Time step": "but the one given is 0.02 s; enter the time step of the file, or leave it"
           " blank"}),
         ({"Low-pass corner": 60},
-         {"Horizontal record": "horizontal record: x.csv: low-pass corner is 60 Hz; give"}),
+         {"Horizontal record": "horizontal record: x.csv: low-pass corner is 60 Hz; enter"}),
         # Records are checked even if their row has other errors.
         ({"ID": None, "Record units": "furlongs", "Horizontal record": "records/none.csv"},
          {"ID": "", "Horizontal record": "does not exist", "Record units": "furlongs"}),

@@ -169,7 +169,7 @@ def test_formulas_that_are_not_calculated_since_are_named(saved):
     first, second = typed_formulas(saved)
     ((name, _, text),) = findings_of(saved)  # the names of its records were changed
     assert name == "calculation"
-    assert text.startswith(f"the workbook asks to be calculated when it is opened, and {first},")
+    assert text.startswith(f"the workbook is set to recalculate when it is opened, and {first},")
     assert findings_of(saying(saved, MANUAL)) == [(
         "calculation", first,
         "the workbook was saved before its formulas were calculated (calculation is manual), and"

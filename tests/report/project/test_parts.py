@@ -170,7 +170,7 @@ def test_a_shared_formula_and_a_sheet_that_is_not_there_are_refused(book):
     files[name] = re.sub(whole(BELOW), again, files[name])
     with pytest.raises(InputError, match=cell_address(f"<{WEIGHT}>: shares its formula")):
         after(pack(path, files), {place(WEIGHT): 1.0})
-    with pytest.raises(InputError, match="Nowhere: the sheet is missing"):
+    with pytest.raises(InputError, match="Nowhere: the worksheet is missing"):
         after(book[0], {CellPosition("Nowhere", 1, 1): 1.0})
 
 

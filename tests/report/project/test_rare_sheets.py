@@ -76,7 +76,7 @@ def test_coefficients_above_the_tested_means_are_reported(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.50), friction_tests=TESTS, friction_runs=runs())
     assert problems(path) == with_addresses(
         f"{MU.format('A1')} is 0.5; the tests give 0.46 (wet, mean of 3 from"
-        f" <{SHEET}/4/Kinetic coefficient>); give 0.46 or less"
+        f" <{SHEET}/4/Kinetic coefficient>); enter 0.46 or less"
     )
     assert read_workbook(type_into(path, {MU.format("A1"): 0.46})).input
     # They are not compared while a run cannot be read.
@@ -84,7 +84,7 @@ def test_coefficients_above_the_tested_means_are_reported(tmp_path):
     assert line.startswith(*with_addresses(f"{SHEET}/1/Kinetic coefficient is 'x'"))
     path = make(tmp_path, arrays=arrays(mu_static=0.52), friction_runs=runs())
     assert problems(path) == with_addresses(
-        "Arrays/A1/Static friction is 0.52; the tests give 0.5 (wet); give 0.5 or less"
+        "Arrays/A1/Static friction is 0.52; the tests give 0.5 (wet); enter 0.5 or less"
     )
 
 
@@ -105,7 +105,7 @@ def test_a_run_number_counts_at_each_velocity_anew(tmp_path):
     path = make(tmp_path, friction_tests=TESTS, friction_runs=table)
     assert len(read_workbook(path).input.friction_runs) == 6
     assert problems(type_into(path, {f"{SHEET}/4/Velocity": 1.0})) == with_addresses(
-        f"{SHEET}/4/Run is 1, dry, already given at <{SHEET}/1/Run>; give another number"
+        f"{SHEET}/4/Run is 1, dry, already entered at <{SHEET}/1/Run>; enter another number"
     )
 
 
@@ -127,7 +127,7 @@ def test_a_law_is_compared_at_the_tested_velocities(tmp_path):
 
 
 G = 9.80665
-WANTED = "give 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45, 0.50"
+WANTED = "enter 2 to 20 coefficients from 0 to 1.5 with decimal points, such as 0.40, 0.45, 0.50"
 
 
 def row_of(array="A1", friction="0.40, 0.45, 0.50", lb_in=5000, **changes):
@@ -161,7 +161,7 @@ def test_text_that_is_not_a_list_of_coefficients_is_refused(text):
     assert coefficients(text) == ()
 
 
-RANGE = "give a range that includes it, or change it"
+RANGE = "enter a range that includes it, or change it"
 # In one workbook: each cell, what is typed there, and how the line goes on after `its label is `.
 CELLS = [
     {"Links/1/Array": ("a1", "'a1', which is not in Arrays; did you mean 'A1'?"),
@@ -172,7 +172,7 @@ CELLS = [
     {"Links/1/Block friction": (
          "0.50, 0.55",
          f"'0.50, 0.55', all above the 0.45 at <Arrays/A1/Friction coefficient>; {RANGE}"),
-     "Links/2/Array": ("A1", "'A1', already given at <Links/1/Array>; delete one")},
+     "Links/2/Array": ("A1", "'A1', already entered at <Links/1/Array>; delete one")},
 ]  # fmt: skip
 
 
@@ -201,7 +201,7 @@ def test_links_that_are_too_stiff_are_reported_with_a_stiffness_that_is_accepted
     for row, (stiffness, line) in enumerate(zip(wanted, problems(linked), strict=True), start=1):
         name = f"Links/{row}/Link stiffness"
         assert line.startswith(cell_address(f"<{name}>: link stiffness is {stiffness}"))
-        type_into(linked, {name: float(line.split("give ")[1].split(" lb/in")[0])})
+        type_into(linked, {name: float(line.split("enter ")[1].split(" lb/in")[0])})
     book = read_workbook(linked)
     seconds = sum(len(m.orientations) * m.dt_s * len(m.ax_mps2) for m in book.motions)
     for row in book.input.links:
@@ -277,7 +277,7 @@ def test_an_unknown_name_is_told_by_its_cell(tmp_path):
         f"{FIRST}: outline of 'A11', which is not in Arrays or Objects; did you mean 'A1'?"
     )
     assert found[0].endswith(
-        "x from is missing; give all four sides of the rectangle, or an outline on the"
+        "x from is missing; enter all four sides of the rectangle, or an outline on the"
         " Outlines worksheet"
     )
 
@@ -289,12 +289,12 @@ NO_NUMBER = "<Outlines/2/y>: y is "
 @pytest.mark.parametrize(
     ("typed", "begin", "end"),
     by_day([
-        (BEYOND_TWO, f"{FIRST}: A1 has 2 vertices", "; give at least 3, one to a row"),
+        (BEYOND_TWO, f"{FIRST}: A1 has 2 vertices", "; enter at least 3, one to a row"),
         ({"2/x": 30, "2/y": 90},  # across the upper side
          f"{FIRST}: outline of A1 touches or crosses itself near x ",
-         "; give its vertices in order, none of them twice"),
-        ({"2/y": "nan"}, NO_NUMBER, "; give a number [ft]"),
-        ({"2/y": None}, NO_NUMBER, "; give a number [ft]"),
+         "; enter its vertices in order, none of them twice"),
+        ({"2/y": "nan"}, NO_NUMBER, "; enter a number [ft]"),
+        ({"2/y": None}, NO_NUMBER, "; enter a number [ft]"),
     ], 1),
 )  # fmt: skip
 def test_what_is_no_outline_is_told_by_its_cell(tmp_path, typed, begin, end):
@@ -311,11 +311,11 @@ NOTCHED = ((0, 0), (300, 0), (300, 60), (80, 60), (80, 100), (0, 100))
     ("changes", "words"),
     by_day([
         (outlined() | {"arrays": arrays()},
-         f": x from is given, and A1 has an outline at {FIRST}; leave the four sides blank, or"
+         f": x from is entered, and A1 has an outline at {FIRST}; leave the four sides blank, or"
          " delete the outline"),
         (outlined(roof=ROOF_FT) | {"objects": [ROOF_AS_ID]},
          "<Outlines/7/Outline of>: outline of 'roof', which is also the ID of an array or object;"
-         " give that another ID"),
+         " enter another ID for it"),
         # A1, an L, is beside the notch, which A2 spans.
         (outlined(roof=NOTCHED), "A2 is outside the roof near x "),
         (outlined(roof=NOTCHED), "or the outline of the roof at <Outlines/7/Outline of>"),

@@ -272,7 +272,7 @@ def test_what_is_blank_or_absent_takes_its_default(tmp_path):
     assert book.input.options == Options()
     assert book.input.motions[1].polarity is Polarity.BOTH
     row = echo(book)[cell_address(statistic)]
-    assert (row.typed, row.value) == ("", "rule set (default)")
+    assert (row.typed, row.value) == ("", "per rule set (default)")
 
     # `test_earlier` has the cells that earlier workbooks lack.
     def change(book):
@@ -326,7 +326,7 @@ def test_a_copied_sheet_is_ignored_with_a_warning(tmp_path):
     ((name, cell, text),) = findings_of(path)
     assert (name, cell) == ("copy Arrays Copy", cell_address("Arrays/heading/ID"))
     assert text == (
-        "sheets 'Arrays' and 'Arrays Copy' both have the labels of Arrays; 'Arrays' is read,"
+        "worksheets 'Arrays' and 'Arrays Copy' both have the labels of Arrays; 'Arrays' is read,"
         " and 'Arrays Copy' is ignored: delete the one that is not meant"
     )
     ((name, _, _),) = findings_of(edit(make(tmp_path), lambda book: copied(book, "Options")))
@@ -358,10 +358,10 @@ NO_TABLE = "no table {0}_table and no row of its headings"
 EDITED = [
     # It takes no other table for its own.
     *((remove(sheet),
-       f"{sheet}: the sheet is missing: {NO_TABLE.format(sheet.lower())}; {FRESH}")
+       f"{sheet}: the worksheet is missing: {NO_TABLE.format(sheet.lower())}; {FRESH}")
       for sheet in ("Arrays", "Objects")),
     (remove("Site"),
-     f"Site: the sheet is missing, or all labels of Site and building; {FRESH}\n"
+     f"Site: the worksheet is missing, or all labels of Site and building; {FRESH}\n"
      "Site: long-period transition T_L is missing (no name target_t_l_s and no label 'Long-period"
      f" transition T_L'); {FRESH}"),
     (forget_number,

@@ -133,18 +133,18 @@ def faults(**changes):
          "seismic design category is 'D'; S_1 = 0.8 g in risk category II requires E or higher"
          " (ASCE 7 section 11.6)"),
         ({"site_class": SiteClass.D_DEFAULT, "s_s_g": 1.2, "f_a": 1.1, "f_v": 1.9}, "f_a",
-         "F_a is 1.1; give at least 1.2 for site class 'D (default)' and S_S of 1.2 g in s_s_g"
+         "F_a is 1.1; enter at least 1.2 for site class 'D (default)' and S_S of 1.2 g in s_s_g"
          " (ASCE 7-16 Table 11.4-1†)"),
         ({"rule_set": "ASCE 7-22", "edition_name": "ASCE 7-16"}, "edition_name",
          "edition of ASCE 7 is 'ASCE 7-16', but the rule set is 'ASCE 7-22'"),
         ({"edition_name": "ASCE 7-22", "f_v": None, "s_ds_g": 1.0}, "f_a",
-         "F_a is 1.2, but ASCE 7-22 has no site coefficients; leave it blank and give S_MS"),
+         "F_a is 1.2, but ASCE 7-22 has no site coefficients; leave it blank and enter S_MS"),
         ({"edition_name": "ASCE 7-22", "f_a": None, "f_v": None}, "s_ds_g",
-         "S_DS is missing; give S_DS or S_MS"),
+         "S_DS is missing; enter S_DS or S_MS"),
         (UNSOURCED | {"s_ds_g": 1.0, "site_class": None}, "s_ds_g",
-         "for site class 'D (default)', assumed because none is given ("),
+         "for site class 'D (default)', assumed because none is entered ("),
         (UNSOURCED | {"s_ds_g": 1.0, "site_class": SiteClass.CD}, "site_class",
-         "site class is 'CD', which ASCE 7-16 does not have; give one of A, B, "),
+         "site class is 'CD', which ASCE 7-16 does not have; enter one of A, B, "),
     ],
 )  # fmt: skip
 @pytest.mark.quick
@@ -227,8 +227,8 @@ def test_what_is_computed_is_said_unless_it_is_given(tmp_path):
         assert site.f_a is None
 
 
-NO_F_A = "Site/F_a is missing; give S_DS, S_MS, or both S_S and F_a"
-NO_SDC = "Site/Seismic design category is missing; choose A, B, C, D, E or F, or give"
+NO_F_A = "Site/F_a is missing; enter S_DS, S_MS, or both S_S and F_a"
+NO_SDC = "Site/Seismic design category is missing; choose A, B, C, D, E or F, or enter"
 
 
 @pytest.mark.parametrize(
@@ -300,7 +300,7 @@ def test_what_a_workbook_may_not_have_is_refused(tmp_path, changes, said):
 
 
 def test_inputs_that_are_not_there_or_at_fault_are_refused(tmp_path):
-    with pytest.raises(InputError, match="no input array; give some of project"):
+    with pytest.raises(InputError, match="no input array; enter some of project"):
         read(make(tmp_path)).with_(array=[])
     sheet = read(type_into(make(tmp_path), {"Arrays/A1/Weight": "heavy"}))
     with pytest.raises(InputError, match="weight is 'heavy'"):

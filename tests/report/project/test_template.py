@@ -88,7 +88,7 @@ def test_headings_defaults_and_paper_are_those_of_the_system(fresh, is_us):
     assert list(examples.items()) == list(wanted.items())
     assert validation(fresh, "Links/1/Array").formula1 == "array_names"
     assert cell(fresh, "Project/Primary units").value == ("US" if is_us else "SI")
-    assert cell(fresh, "Options/Design value statistic").value == "rule set"
+    assert cell(fresh, "Options/Design value statistic").value == "per rule set"
     assert cell(fresh, "Options/Peer review").value == "No"
     labels = ("Rule set", "Seismic design category")
     first, last = (cell(fresh, f"Site/{label}").row for label in labels)
@@ -178,7 +178,7 @@ def test_headings_are_frozen_and_rare_sheets_hidden(fresh, tmp_path):
 
 
 def test_a_filled_workbook_shows_hidden_sheets_grows_tables_and_keeps_texts(tmp_path):
-    path = type_into(make(tmp_path), {"Layers/1/Layer": "PV", "Layers/1/Drawn on it": "array"})
+    path = type_into(make(tmp_path), {"Layers/1/Layer": "PV", "Layers/1/Content": "array"})
     states = {sheet.title: sheet.sheet_state for sheet in load_workbook(path).worksheets}
     assert (states["Layers"], states["Outlines"]) == ("visible", "hidden")
     assert read(path).unseen == ()

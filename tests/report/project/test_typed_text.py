@@ -104,7 +104,12 @@ def test_a_date_has_the_meanings_that_it_may_have(dates, texts):
     assert {text: dates_in(text) for text in texts} == dict.fromkeys(texts, dates)
 
 
-KINDS = ("fixed object", "unlike array", "edge with parapet", "edge without parapet")
+KINDS = (
+    "fixed object",
+    "array of different construction",
+    "edge with parapet",
+    "edge without parapet",
+)
 
 
 CHOICES = {
@@ -130,7 +135,7 @@ AS_TYPED = [
         "Site/Risk category": (2, "risk_category", "II"),
         "Site/Rule set": ("ASCE7-16", "rule_set", "ASCE 7-16"),
         "Objects/RTU-1/Kind": ("Fixed  object", "kind", "fixed object"),
-        "Clearances/1/Direction": ("downslope", "direction", "down"),
+        "Clearances/1/Direction": ("Cross-Slope", "direction", "cross-slope"),
         "Arrays/A1/Slope unit": ("%", "slope_unit", "percent"),
     },
     {
@@ -139,12 +144,18 @@ AS_TYPED = [
         "Project/Date": ((DAY - dt.date(1899, 12, 30)).days, "date", DAY),
     },
     {"Arrays/A1/Slope unit": ("in/ft", "slope_unit", "in/12")},
+    {  # the words of earlier workbooks
+        "Clearances/1/Direction": ("Down", "direction", "downslope"),
+        "Objects/RTU-1/Kind": ("unlike array", "kind", "array of different construction"),
+        "Options/Design value statistic": ("rule set", "statistic", "per rule set"),
+        "Options/Sheet size of the roof plan": ("by size", "plan_paper", "automatic"),
+    },
 ]
 
 
 # A remark in a cell, and the end of its message.
 REMARKS = {
-    "Arrays/A1/Friction coefficient": ("0.45 (wet)", "give a number from 0 to 1.5"),
+    "Arrays/A1/Friction coefficient": ("0.45 (wet)", "enter a number from 0 to 1.5"),
     "Site/Site class": ("Site Class D", "choose A, B, BC, C, CD, D, D (default), DE, E or F"),
     "Objects/RTU-1/Kind": (
         "fixed",
@@ -255,7 +266,7 @@ MISLEADING = [
     ("Arrays/A1/CG height", '0" mm"', "9, shown in mm", "greater than 0 [in]"),
     ("Arrays/A1/Weight", "0,", "42000, shown divided by 1,000", "greater than 0 [lb]"),
     ("Site/Structure height h", '0.0" m"', "36, shown in m", "0 [ft]"),
-    ("Options/1/Value", '0" ft"', "18, shown in ft", "give a number"),
+    ("Options/1/Value", '0" ft"', "18, shown in ft", "enter a number"),
     ("Motions/M2/Factor or PPA", '0.0"g"', "2, shown in g", "greater than 0"),
 ]
 
@@ -275,7 +286,7 @@ def test_a_number_shown_in_another_unit_or_in_thousands_is_an_error(
     tmp_path, name, code, what, wish
 ):
     (line,) = problems(formatted(make(tmp_path), {name: code}))
-    (begin,) = with_addresses(f"{name} is {what} by its number format ({code}); give a number")
+    (begin,) = with_addresses(f"{name} is {what} by its number format ({code}); enter a number")
     assert line.startswith(begin)
     assert line.endswith(", formatted as a number")
     assert wish in line
@@ -310,7 +321,7 @@ UNITS = [
     # A unit that cannot be chosen must be that of the sheet.
     {
         "Site/F_a/Unit": ("%", "F_a is '%'; it has no unit: delete it"),
-        "Site/S_DS/Unit": ("m/s2", "S_DS is 'm/s2'; give the number in g, and write g"),
+        "Site/S_DS/Unit": ("m/s2", "S_DS is 'm/s2'; enter the number in g, and write g"),
         "Links/heading/Link stiffness": (
             "Link stiffness [psi]", "link stiffness is 'psi'; write one of lb/in, kip/in,"),
     },
@@ -331,6 +342,6 @@ def test_a_percentage_is_an_error_with_the_number_that_excel_holds(tmp_path):
         slope.value, slope.number_format = 0.05, "0.0%"
 
     assert problems(edit(make(tmp_path), percent)) == with_addresses(
-        "Arrays/A2/Slope is a percentage (5%, which Excel holds as 0.05); give a number of 0 or"
+        "Arrays/A2/Slope is a percentage (5%, which Excel holds as 0.05); enter a number of 0 or"
         " more, formatted as a number"
     )

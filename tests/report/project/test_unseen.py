@@ -57,9 +57,9 @@ def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
     sheet, column, row = cell_of("Options/1/Value")
     ((name, _, text),) = findings_of(hide_options(make(tmp_path), state))
     assert name == f"hidden sheet {sheet}"
-    assert text.startswith(f"the sheet is {said}, and cells B")
+    assert text.startswith(f"the worksheet is {said}, and cells B")
     assert has(text, f"{column}{row}")
-    assert text.endswith(" on it are read: show it, or clear what is not meant")
+    assert text.endswith(" on it are read: unhide it, or clear what is not meant")
 
 
 def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
@@ -223,7 +223,7 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
     assert name == "hidden sheet Pasted"
     assert "and cells A1:C150 on it are read" in text
     page = page_of(replace(assessments.package().assessment, shaking=book.shaking), "records")
-    assert "M1 horizontal: cells A1:B150 on the sheet Pasted: hidden sheet" in page
+    assert "M1 horizontal: cells A1:B150 on the Pasted worksheet: hidden sheet" in page
 
 
 @pytest.mark.quick

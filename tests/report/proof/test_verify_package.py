@@ -121,7 +121,7 @@ def test_a_painted_package_is_not_compared_in_full_and_is_made_again_beside_it(w
     again = path.with_name("given-again.pdf")
     assert again.read_bytes() == data
     told = commands.errors_of("verify-package", path)
-    assert "given-again.pdf: already exists; give another --out" in told
+    assert "given-again.pdf: already exists; use another --out" in told
 
 
 @pytest.mark.parametrize("name", ["SIGTERM", "SIGINT"])

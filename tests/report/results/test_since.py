@@ -353,7 +353,7 @@ def test_more_changes_than_can_be_laid_out_are_refused_with_both_limits(assessme
     check_listed(changes(former(document), assessment))
     document["checks"] += [row | {"title": f"U{k}"} for k in range(58_000)]
     with pytest.raises(
-        InputError, match=r"--since: .* 60,000 rows of .*; at most 2,000 of .*; give"
+        InputError, match=r"--since: .* 60,000 rows of .*; at most 2,000 of .*; use"
     ):
         check_listed(changes(former(document), assessment))
     document["checks"] = [row | {"found_text": "x " * 2_500_000}]

@@ -143,7 +143,7 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
     ("changes", "wanted"),
     by_day([
         ({"slopes_deg": "2, 1"}, ("<Study/Slopes>: slopes are '2, 1'", "0 to 7 by 0.5")),
-        ({"slopes_deg": "50"}, ("<Study/Slopes>: slopes have 50; give numbers from 0 to 45",)),
+        ({"slopes_deg": "50"}, ("<Study/Slopes>: slopes have 50; enter numbers from 0 to 45",)),
         ({"intensities": "inf"}, ("<Study/Intensities>: intensities have inf",)),
         ({"mats": (), "study_arrays": ()},
          ("<Study/Friction coefficients>: friction coefficients are missing",)),
@@ -163,7 +163,7 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
         ({"mats": (Mat(id="B", mu=0.4),)},
          ("<Arrays/1/Mat>: mat 'a' is not on the Mats worksheet",)),
         ({"site_intensity": 1.0, "study_arrays": ()},
-         ("<Study/Intensity at the site>: is given, but no array is",)),
+         ("<Study/Intensity at the site>: is entered, but no array is",)),
         ({"site_intensity": 1.0, "intensity_beta": 0.2, "sampling": Sampling.ALL_COMBINATIONS},
          ("<Study/Dispersion of intensity>: all combinations take the median",)),
         ({"record_beta": 0.4},
@@ -242,8 +242,8 @@ def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
     edit(folder / "input.xlsx", lambda book: setattr(book["Mats"], "sheet_state", "hidden"))
     ((cell, text),) = plan(folder).warnings
     assert cell.startswith("Mats!")
-    assert text.startswith("the sheet is hidden, and cells ")
-    assert text.endswith(" on it are read: show it, or clear what is not meant")
+    assert text.startswith("the worksheet is hidden, and cells ")
+    assert text.endswith(" on it are read: unhide it, or clear what is not meant")
     shown = command(folder, "--dry-run")
     assert f"warning: {cell}: {text}" in shown.stderr
     assert " MB of disk space" in shown.output
@@ -429,11 +429,11 @@ def test_a_file_is_read_to_the_roof(tmp_path):
     by_day([
         ({"hazard": hazard(site_factor=None, site_basis="")}, ["Factor to the site is missing"]),
         ({"hazard": hazard(site_basis="")}, ["Basis of this factor is missing"]),
-        ({"hazard": hazard(site_vs30_mps=760.0)}, ["Factor to the site is given"]),
+        ({"hazard": hazard(site_vs30_mps=760.0)}, ["Factor to the site is entered"]),
         ({"hazard": hazard(source="", edition="")},
          ["Source of the curve is missing", "Hazard model is missing"]),
         ({"hazard": hazard(file="a.csv")}, ["Hazard curve file is named"]),
-        ({"hazard_points": ()}, ["Site is given without a hazard curve"]),
+        ({"hazard_points": ()}, ["Site is entered without a hazard curve"]),
         ({"intensity": Intensity.PPV}, ["has no hazard curve"]),
         ({"study_arrays": ()}, ["but no array is"]),
         ({"hazard_points": curve((0.1, 0.5), (1.0, 0.6))}, ["point 2 of the curve is 1 at 0.6"]),

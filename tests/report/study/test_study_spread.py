@@ -149,7 +149,7 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
     said = (
         "Dispersions of LS1 (slip begins): record-to-record 0.30 (Site & hazard), modeling 0.40 "
         "(entered), quality of data not included (not entered), friction not included (mat A has "
-        "no tests), slope not included (no tolerance is given). "
+        "no tests), slope not included (no tolerance is entered). "
         "Mass has no effect: each array is one "
         "rigid block with Coulomb friction."
     )
@@ -161,7 +161,7 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
     table = page.table("Dispersions")
     assert table.title.endswith(
         ". Not included: quality of data (not entered), friction (mat A has no tests) and slope "
-        "(no tolerance is given)"
+        "(no tolerance is entered)"
     )
     assert table.cells == (("LS1", "0.300", "0.400", "0.500"),)
 

@@ -49,7 +49,7 @@ def test_the_target_of_a_suite_is_the_site_of_the_workbook_with_its_cells_and_ed
     ("options", "said"),
     by_day(
         [
-            (("--zh", 0.5), "no target; give --sds and --code, or --target"),
+            (("--zh", 0.5), "no target; use --sds and --code, or --target"),
             (("--sds", 0.5, "--code", "asce7-22"), "AC156 with ASCE 7-22, S_DS 0.5 g, z/h 1"),
             (("--sds", 0.5, "--code", "ASCE 7-16"), "AC156 with ASCE 7-16, S_DS 0.5 g, z/h 1"),
         ],
@@ -76,11 +76,11 @@ def test_what_the_workbook_lacks_or_has_out_of_range_or_beside_is_an_error_at_it
         site_targets(read(edit(path, lambda book: book.remove(book["Site"]))))
     assert len(caught.value.problems) == 3
     path = type_into(make(tmp_path), {"Site/S_DS": 0.005})
-    with pytest.raises(InputError, match=r"^S_DS is 0\.005 g; give"):
+    with pytest.raises(InputError, match=r"^S_DS is 0\.005 g; enter"):
         site_targets(read(path))
     points = [{"period_s": t, "horizontal_g": a} for t, a in ((0.02, 0.5), (5.0, 0.1))]
     sheet = read(make(tmp_path, spectrum=points))
-    with pytest.raises(InputError, match="a target spectrum is given, not that of AC156; add --ta"):
+    with pytest.raises(InputError, match="a target spectrum is entered, not that of AC156; add"):
         site_targets(sheet)
 
 
@@ -261,7 +261,7 @@ def test_a_sheet_is_read_by_its_headings_in_any_order_and_far_away_cells_rejecte
     (problem,) = problems(f"{path}!Target")
     assert f"Target!A{MAX_ROWS + 17}: contains data beyond row" in problem
     long = "period,sa\n" + "1,1\n" * (MAX_ROWS + 10)
-    assert f"give at most {MAX_ROWS} rows" in problems(text(tmp_path, long))[0]
+    assert f"enter at most {MAX_ROWS} rows" in problems(text(tmp_path, long))[0]
     target = read_target(text(tmp_path, "period [s],horizontal [g]\n0.03,1\n3.33,0.3\n"))
     assert target.freq_hz.tolist() == [1 / 3.33, 1 / 0.03]
 
@@ -291,11 +291,11 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
     rows[4][1] = True
     rows[5][2] = 250
     assert problems(f"{book(tmp_path, rows)}!Target") == (
-        "Target!A4: period is 0; give a number from 0.001 to 1000 s",
-        "Target!B2: horizontal is '1,5,0'; give a number greater than 0 [g]",
-        "Target!B5: horizontal is TRUE, a logical value; give a number greater than 0 [g]",
-        "Target!C3: vertical is blank; give a number greater than 0",
-        "Target!C6: vertical is 250; give a number from 1e-06 to 100 g",
+        "Target!A4: period is 0; enter a number from 0.001 to 1000 s",
+        "Target!B2: horizontal is '1,5,0'; enter a number greater than 0 [g]",
+        "Target!B5: horizontal is TRUE, a logical value; enter a number greater than 0 [g]",
+        "Target!C3: vertical is blank; enter a number greater than 0",
+        "Target!C6: vertical is 250; enter a number from 1e-06 to 100 g",
     )
     rows = [list(row) for row in ROWS]
     rows[1][1] = "=1+1"  # a formula that was never computed
@@ -304,24 +304,24 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
     assert "=1+1" in problem
     content = "frequency [Hz],horizontal [g]\n0.1,0.2\n1,x\n50\n"
     assert problems(text(tmp_path, content)) == (
-        "target.csv:3: horizontal is 'x'; give a number greater than 0 [g]",
-        "target.csv:4: horizontal is blank; give a number greater than 0",
+        "target.csv:3: horizontal is 'x'; enter a number greater than 0 [g]",
+        "target.csv:4: horizontal is blank; enter a number greater than 0",
     )
 
 
 @pytest.mark.parametrize(
     ("heading", "expected"),
     [
-        ("period [ms],horizontal [g]", "target.csv:1: is 'period [ms]'; give period [s]"),
-        ("period [s],horizontal [m/s2]", "is 'horizontal [m/s2]'; give horizontal [g]"),
+        ("period [ms],horizontal [g]", "target.csv:1: is 'period [ms]'; enter period [s]"),
+        ("period [s],horizontal [m/s2]", "is 'horizontal [m/s2]'; enter horizontal [g]"),
         ("period [s],sa [g],sa [g]", "target.csv:1: a second horizontal column; delete one"),
         ("period,frequency,sa", "both frequency and period; delete one of them"),
-        ("period [s],sa [%g]", "is 'sa [%g]'; give horizontal [g]"),
-        ("period,sa,Vertical PSA (g)", "target.csv:1: is 'Vertical PSA (g)'; give vertical [g]"),
-        ("Sa in cm/s2\nperiod,sa", "target.csv:1: says 'Sa in cm/s2'; give accelerations in g"),
-        ("# Units: mg\nperiod,sa", "target.csv:1: says '# Units: mg'; give accelerations in g"),
-        ("Velocity (cm/s)\nperiod,sa", "target.csv:1: says 'Velocity (cm/s)'; give accelerat"),
-        ("a,b", "target.csv: no row of headings in the first 10 rows; give frequency [Hz]"),
+        ("period [s],sa [%g]", "is 'sa [%g]'; enter horizontal [g]"),
+        ("period,sa,Vertical PSA (g)", "target.csv:1: is 'Vertical PSA (g)'; enter vertical [g]"),
+        ("Sa in cm/s2\nperiod,sa", "target.csv:1: says 'Sa in cm/s2'; use accelerations in g"),
+        ("# Units: mg\nperiod,sa", "target.csv:1: says '# Units: mg'; use accelerations in g"),
+        ("Velocity (cm/s)\nperiod,sa", "target.csv:1: says 'Velocity (cm/s)'; use accelerat"),
+        ("a,b", "target.csv: no row of headings in the first 10 rows; enter frequency [Hz]"),
     ],
 )
 def test_ambiguous_headings_are_rejected(tmp_path, heading, expected):
@@ -332,9 +332,9 @@ def test_ambiguous_headings_are_rejected(tmp_path, heading, expected):
 @pytest.mark.parametrize(
     ("body", "expected"),
     [
-        ("0.1,1\n", "has 1 row of numbers; give at least 2"),
+        ("0.1,1\n", "has 1 row of numbers; enter at least 2"),
         ("0.1,1\n50,1\n50,2\n", "50 Hz (0.02 s) appears twice"),
-        ("0.5,1\n50,1\n", "covers 0.5 to 50 Hz; give 0.3 to 33.3 Hz (periods from 0.03"),
+        ("0.5,1\n50,1\n", "covers 0.5 to 50 Hz; enter 0.3 to 33.3 Hz (periods from 0.03"),
     ],
 )
 def test_a_table_too_short_is_rejected(tmp_path, body, expected):
@@ -345,8 +345,8 @@ def test_a_table_too_short_is_rejected(tmp_path, body, expected):
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
-        ("!Nothing", "spectra.xlsx: has no sheet 'Nothing'; give one of 'Target', 'Notes'"),
-        ("", "spectra.xlsx: has 2 sheets; give spectra.xlsx!Sheet, one of 'Target', 'Notes'"),
+        ("!Nothing", "spectra.xlsx: has no worksheet 'Nothing'; enter one of 'Target', 'Notes'"),
+        ("", "spectra.xlsx: has 2 worksheets; enter spectra.xlsx!Sheet, one of 'Target', 'Notes'"),
         ("!Notes", "spectra.xlsx!Notes: no row of headings"),
     ],
 )
@@ -363,7 +363,7 @@ def test_a_sheet_that_is_not_there_is_reported_and_the_only_one_needs_no_name(
     [
         ("target.csv", b"\x00\x01", "not a text file"),
         ("target.csv", b'period,"sa\n', "not CSV"),
-        ("target.csv", b"x" * 1001, "found a line of 1001 characters; give at most 1000"),
+        ("target.csv", b"x" * 1001, "found a line of 1001 characters; enter at most 1000"),
         ("spectra.xlsx", b"PK nonsense", "not a workbook, or truncated"),
         ("none.xlsx", None, "no such file"),
     ],

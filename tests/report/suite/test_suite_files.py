@@ -212,7 +212,7 @@ def test_a_vertical_among_three_channels_seeds_z_and_every_file_at_fault_is_repo
     with pytest.raises(InputError) as caught:
         read_seeds([str(path), "none.csv", "a.csv,b.csv"], units="g", dt_s=math.nan)
     problems = caught.value.problems
-    assert "many.csv: has 4 channels; give one, two or three" in problems[0]
+    assert "many.csv: has 4 channels; enter one, two or three" in problems[0]
     assert problems[1].startswith("none.csv: no such file")
     assert problems[2].startswith("a.csv: no such file")
 
@@ -226,7 +226,7 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
     workbook.save(tmp_path / "book.xlsx")
     words = (tmp_path / "suite", "--target", f"{tmp_path / 'book.xlsx'}!Site", "--count", 1)
     output = run(*words, exit_code=2)
-    assert "book.xlsx!Site: has no vertical column; add vertical [g], or give --sds" in output
+    assert "book.xlsx!Site: has no vertical column; add vertical [g], or use --sds" in output
     assert not (tmp_path / "suite").exists()
     output = run(*words, "--sds", 0.9)
     assert "target: book.xlsx!Site, 4 points, periods up to 5 s" in output
@@ -239,11 +239,11 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
-        ((), "no target; give --sds and --code, or --target"),
-        (("--sds", 0.0, "--code", "pv1"), "S_DS is 0 g; give 0.01 to 5 g"),
-        (("--sds", "inf", "--code", "pv1"), "'--sds': it is inf g; give a finite number."),
-        (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "z/h is 1.5; give a number from 0"),
-        (("--sds", 1.0, "--code", "ibc"), "--code is 'ibc'; give one of"),
+        ((), "no target; use --sds and --code, or --target"),
+        (("--sds", 0.0, "--code", "pv1"), "S_DS is 0 g; enter 0.01 to 5 g"),
+        (("--sds", "inf", "--code", "pv1"), "'--sds': it is inf g; enter a finite number."),
+        (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "z/h is 1.5; enter a number from 0"),
+        (("--sds", 1.0, "--code", "ibc"), "--code is 'ibc'; enter one of"),
         ((*AC156, "--count", 0), "Invalid value for '--count'"),
         ((*AC156, "x.csv"), "unexpected argument 'x.csv'; write --records before the files"),
         ((*AC156, "--records", "none.csv"), "none.csv: no such file"),

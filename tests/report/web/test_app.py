@@ -83,12 +83,12 @@ def test_a_value_that_the_workbook_could_not_have_is_refused_with_its_cell(clien
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"friction": 9.0}, "Friction is 9.0; give a number from 0.5 to 1.06"),
-        ({"friction": "0.9"}, "Friction is 0.9; give a number"),
-        ({"friction": math.nan}, "Friction is nan; give a number"),
-        ({"friction": math.inf}, "Friction is inf; give a number"),
-        ({"friction": -math.inf}, "Friction is -inf; give a number"),
-        ({"friction": -1e308}, "Friction is -1e+308; give a number"),
+        ({"friction": 9.0}, "Friction is 9.0; enter a number from 0.5 to 1.06"),
+        ({"friction": "0.9"}, "Friction is 0.9; enter a number"),
+        ({"friction": math.nan}, "Friction is nan; enter a number"),
+        ({"friction": math.inf}, "Friction is inf; enter a number"),
+        ({"friction": -math.inf}, "Friction is -inf; enter a number"),
+        ({"friction": -1e308}, "Friction is -1e+308; enter a number"),
         ({"gravity": 1.0}, "Gravity: the workbook has no such slider"),
         ({"polarity": "sideways"}, "Polarity is sideways; choose both or"),
         ({f"x{k}": 1.0 for k in range(1000)}, "The request is not one of the page"),

@@ -390,7 +390,7 @@ def test_a_value_that_the_workbook_refuses_gets_its_reason_and_no_verdict(page):
     assert page.locator("#slider-s_ds").is_enabled()
     page.goto(f"{page.url.partition('#')[0]}#friction=1.9")
     page.wait_for_selector("body[data-phase=failed]")
-    assert "give " in page.inner_text("#verdict")
+    assert "enter " in page.inner_text("#verdict")
     assert page.locator("#results .tag:visible").count() == 0
     page.get_by_label("Friction: reset to the workbook value").click()
     at_rest(page)

@@ -164,12 +164,12 @@ def test_six_arrays_under_seven_motions_print_in_two_pages(page, tmp_path):
         for count, (x, y) in enumerate(corners, start=3)
     ]
     gaps = [
-        ("A4", "PV-OLD", "up", 72),
-        ("A5", "EAST", "across", 120),
-        ("A6", "EAST", "across", 120),
+        ("A4", "PV-OLD", "upslope", 72),
+        ("A5", "EAST", "cross-slope", 120),
+        ("A6", "EAST", "cross-slope", 120),
     ]
-    gaps += [("A3", "A4", "up", 72), ("A5", "A6", "up", 72)]
-    gaps += [("A3", "A5", "across", 72), ("A4", "A6", "across", 72)]
+    gaps += [("A3", "A4", "upslope", 72), ("A5", "A6", "upslope", 72)]
+    gaps += [("A3", "A5", "cross-slope", 72), ("A4", "A6", "cross-slope", 72)]
     tables = {"Arrays": ("BCDEFGKLMNOPQR", 10, quarters), "Clearances": ("BCDE", 12, gaps)}
     cells = {
         f"{sheet}!{column}{number}": value

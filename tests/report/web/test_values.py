@@ -321,7 +321,7 @@ def test_a_value_of_one_array_or_clearance_changes_its_cells_alone_and_replaces_
     [
         ({"friction@A9": 0.9}, "friction@A9: the workbook has no such slider"),
         ({"intensity@A1": 0.9}, "intensity@A1: the workbook has no such slider"),
-        ({"friction@A1": 9.0}, "Friction of A1 is 9.0; give a number from 0.5 to"),
+        ({"friction@A1": 9.0}, "Friction of A1 is 9.0; enter a number from 0.5 to"),
     ],
 )
 def test_a_value_of_what_has_no_such_quantity_is_refused(values, refused):

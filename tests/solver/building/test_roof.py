@@ -264,14 +264,14 @@ def test_given_periods_and_modes_are_kept_up_to_the_stories():
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ({"periods_s": [0.0]}, "period: found 0.0 s; give above 0 to 10 s"),
-        ({"periods_s": [0.4, 1.0]}, "give the longest first"),
+        ({"periods_s": [0.0]}, "period: found 0.0 s; use above 0 to 10 s"),
+        ({"periods_s": [0.4, 1.0]}, "use the longest first"),
         ({"periods_s": []}, "at least one period"),
-        ({"periods_s": [1.0], "damping": [5.0]}, "damping: found 5.0; give a fraction"),
+        ({"periods_s": [1.0], "damping": [5.0]}, "damping: found 5.0; use a fraction"),
         ({"periods_s": [1.0], "damping": []}, "one damping"),
         ({"periods_s": [1.0], "alpha0": -1.0}, "lateral stiffness ratio: found -1.0"),
         ({"periods_s": [1.0], "stories": 101}, "stories: found 101"),
-        ({"periods_s": [1.0], "alpha0": math.nan}, "nan; give 0 to 1000, or infinity"),
+        ({"periods_s": [1.0], "alpha0": math.nan}, "nan; use 0 to 1000, or infinity"),
         ({"periods_s": [1.0], "stories": -1}, "whole number from 1 to 100, 0 for a beam"),
     ],
 )

@@ -85,35 +85,35 @@ UNEVEN = table([T[k] for k in GAPS], [V[k] for k in GAPS], head="time_s,acc_g")
 SWAPPED = [*range(50), 51, 50, *range(52, COUNT)]
 
 KINDS = {
-    "one column without a unit": Kind(COLUMN, "give units, one of g,", given=STEP, then=BOTH),
+    "one column without a unit": Kind(COLUMN, "enter units, one of g,", given=STEP, then=BOTH),
     "a heading without a unit": Kind(
         table(T, V, head="time,acc"), "or a heading such as acc_g", table(T, V, head="time,acc_g")
     ),
-    "one column without a step": Kind(COLUMN, "give the time step dt", given=IN_G, then=BOTH),
+    "one column without a step": Kind(COLUMN, "enter the time step dt", given=IN_G, then=BOTH),
     "another unit given": Kind(
-        PLAIN, "give the units of the file, or none", given={"units": "m/s2"}
+        PLAIN, "enter the file's units, or none", given={"units": "m/s2"}
     ),
     "another step given": Kind(
-        PLAIN, "give the time step of the file, or none", given={"dt_s": 0.02}
+        PLAIN, "enter the time step of the file, or none", given={"dt_s": 0.02}
     ),
-    "a step of zero": Kind(COLUMN, "give a number of seconds above 0",
+    "a step of zero": Kind(COLUMN, "enter a number of seconds above 0",
                            given=IN_G | {"dt_s": 0.0}, then=BOTH),
-    "a unit in other letters": Kind(COLUMN, "give one of g, m/s2, cm/s2",
+    "a unit in other letters": Kind(COLUMN, "enter one of g, m/s2, cm/s2",
                                     given=STEP | {"units": "G's"}, then=BOTH),
     "values across the lines": Kind(
         across(V, 7), r"--values-per-line (\d+)", given=BOTH, then=BOTH | {"values_per_line": "1"}
     ),
     "times in the second column": Kind(
-        table(V, T, head="acc_g,time_s"), "give them in the first, and once", PLAIN
+        table(V, T, head="acc_g,time_s"), "put them in the first, and once", PLAIN
     ),
     "numbers of samples for times, deleted": Kind(
         table(map(str, range(COUNT)), V, head="n,acc_g"),
-        "or delete the column and give the time step",
+        "or delete the column and enter the time step",
         lines("acc_g", *V), then=STEP,
     ),
     "numbers of samples for times": Kind(
         table(map(str, range(COUNT)), V, head="n,acc_g"),
-        "give times in seconds, such as time_s", PLAIN,
+        "enter times in seconds, such as time_s", PLAIN,
     ),
     "numbers of samples without a heading": Kind(
         table(map(str, range(COUNT)), V, mark=" "), "or delete the column if it counts the samples",
@@ -136,33 +136,33 @@ KINDS = {
         table(T, V, head="time_s,x_g"), given=IN_G,
     ),
     "tables side by side": Kind(
-        table(T, V, T, GAL, mark=" "), "tables side by side; give one of them",
+        table(T, V, T, GAL, mark=" "), "tables side by side; use one of them",
         table(T, V, mark=" "), given=IN_G, then=IN_G,
     ),
     "rounded times": Kind(
         table([f"{float(t):.1f}" for t in T], V, head="time_s,acc_g"),
-        r"give the time step dt, such as ([\d.]+)", then={"dt_s": "1"},
+        r"enter the time step dt, such as ([\d.]+)", then={"dt_s": "1"},
     ),
     "times in microseconds": Kind(
         table([f"{10_000 * k}" for k in range(COUNT)], V, head="time_us,acc_g"),
-        "give them in s, ms or min, such as time_s", PLAIN,
+        "enter them in s, ms or min, such as time_s", PLAIN,
     ),
     "milliseconds without a unit": Kind(
         table([f"{10 * k}" for k in range(COUNT)], V, head="time,acc_g"),
-        "give the unit of the times, such as time_s or time_ms",
+        "enter the unit of the times, such as time_s or time_ms",
         table([f"{10 * k}" for k in range(COUNT)], V, head="time_ms,acc_g"),
     ),
-    "uneven times and a step": Kind(UNEVEN, "give none, and the record is resampled", given=STEP),
+    "uneven times and a step": Kind(UNEVEN, "omit it, and the record is resampled", given=STEP),
     "times that fall": Kind(
         table([T[k] for k in SWAPPED], [V[k] for k in SWAPPED], head="time_s,acc_g"),
-        "give increasing times", PLAIN,
+        "enter increasing times", PLAIN,
     ),
     "three columns without a heading": Kind(
         table(T, V, GAL, mark=" "), "heading such as time_s,x_g,y_g",
         table(T, V, GAL, head="time_s,x_g,y_cm/s2"), then={"channel": "x"},
     ),
     "fewer headings than columns": Kind(
-        table(T, V, GAL, head="time_s,x_g"), "give one for each",
+        table(T, V, GAL, head="time_s,x_g"), "enter one for each",
         table(T, V, GAL, head="time_s,x_g,y_cm/s2"), then={"channel": "x"},
     ),
     "one of two channels": Kind(
@@ -173,12 +173,12 @@ KINDS = {
         "multiply them all by it, and delete the line", COLUMN, given=BOTH, then=BOTH,
     ),
     "numbers above a column": Kind(
-        lines("7.5 0.3 3.1") + COLUMN, "put # before them, and give the time step",
+        lines("7.5 0.3 3.1") + COLUMN, "put # before them, and enter the time step",
         lines("# 7.5 0.3 3.1") + COLUMN, given=BOTH, then=BOTH,
     ),
     "times of day": Kind(
         table([f"12:30:{DT_S * k:05.2f}" for k in range(COUNT)], V, head="time,acc_g"),
-        "give seconds from the start in the first column, such as time_s", PLAIN,
+        "enter seconds from the start in the first column, such as time_s", PLAIN,
     ),
     "a text that says velocity": Kind(
         lines("# velocity", *V), "or a heading such as acc_g if the values are accelerations",
@@ -186,36 +186,36 @@ KINDS = {
     ),
     "a decimal comma": Kind(
         table(T, [value.replace(".", ",") for value in V], mark=" "),
-        "give a number with a decimal point", table(T, V, mark=" "), given=IN_G, then=IN_G,
+        "enter a number with a decimal point", table(T, V, mark=" "), given=IN_G, then=IN_G,
     ),
     "a column with decimal commas": Kind(
-        lines(*(value.replace(".", ",") for value in V)), "give a number with a decimal point",
+        lines(*(value.replace(".", ",") for value in V)), "enter a number with a decimal point",
         COLUMN, given=BOTH, then=BOTH,
     ),
     "commas for thousands": Kind(
         table(T, [f"{10.0 * float(value):,.3f}" for value in GAL], head="time_s a_mm/s2", mark=" "),
-        "give a number without commas for thousands",
+        "enter a number without commas for thousands",
         table(T, [f"{10.0 * float(value):.3f}" for value in GAL], head="time_s a_mm/s2", mark=" "),
     ),
     "no number": Kind(
-        lines("nan", *V[1:]), "give a number", COLUMN, given=BOTH, then=BOTH
+        lines("nan", *V[1:]), "enter a number", COLUMN, given=BOTH, then=BOTH
     ),
     "a code for missing data": Kind(
-        lines("-999.0", *V[1:]), "give a record without gaps", COLUMN, given=BOTH, then=BOTH
+        lines("-999.0", *V[1:]), "use a record without gaps", COLUMN, given=BOTH, then=BOTH
     ),
     "two units": Kind(
-        lines("# Units: gal", "acc_g", *V), "or give the units", given=STEP, then=BOTH
+        lines("# Units: gal", "acc_g", *V), "or enter the units", given=STEP, then=BOTH
     ),
     "two units, one corrected": Kind(
         lines("# Units: gal", "acc_g", *V), "Correct one of them", lines("# Units: g", "acc_g", *V),
         given=STEP, then=STEP,
     ),
     "gal below a heading in g": Kind(
-        table(T, GAL, head="time_s,acc_g"), r"is it cm/s2\? Give the units that they have",
+        table(T, GAL, head="time_s,acc_g"), r"is it cm/s2\? Enter the units that they have",
         table(T, GAL, head="time_s,acc_cm/s2"),
     ),
     "a count of more": Kind(
-        lines("# NPTS = 300", *V), "give the whole file", lines("# NPTS = 200", *V),
+        lines("# NPTS = 300", *V), "use the whole file", lines("# NPTS = 200", *V),
         given=BOTH, then=BOTH,
     ),
     "a count of fewer": Kind(
@@ -223,18 +223,18 @@ KINDS = {
         given=BOTH, then=BOTH,
     ),
     "a last line without its end": Kind(
-        lines(*V[:-1]) + V[-1][:5], "give the whole file", COLUMN, given=BOTH, then=BOTH
+        lines(*V[:-1]) + V[-1][:5], "use the whole file", COLUMN, given=BOTH, then=BOTH
     ),
     "a step of hours": Kind(
-        lines("# dt = 0.01 h", *V), "give it in s, ms or min", lines("# dt = 0.01 s", *V),
+        lines("# dt = 0.01 h", *V), "enter it in s, ms or min", lines("# dt = 0.01 s", *V),
         given=IN_G, then=IN_G,
     ),
     "a step that the times deny": Kind(
-        lines("# dt = 0.02 s") + PLAIN, "give a file in which they agree",
+        lines("# dt = 0.02 s") + PLAIN, "use a file in which they agree",
         lines("# dt = 0.01 s") + PLAIN,
     ),
     "a row of fewer columns": Kind(
-        PLAIN.replace(f"0.50,{V[50]}", "0.50"), "give 2 as in the first row", PLAIN
+        PLAIN.replace(f"0.50,{V[50]}", "0.50"), "enter 2 as in the first row", PLAIN
     ),
     "text of no format": Kind(
         lines("station made", "1st of 3") + COLUMN, "put # before every other line of text",
@@ -246,14 +246,14 @@ KINDS = {
         table(T, V, head="time_s,x_g"),
     ),
     "XML on one line": Kind(
-        f"<record dt='0.01' unit='g'>{' '.join(V[:20])}</record>", "give the record itself", PLAIN
+        f"<record dt='0.01' unit='g'>{' '.join(V[:20])}</record>", "use the record itself", PLAIN
     ),
     "XML on one long line": Kind(
-        f"<?xml version='1.0'?><record>{' '.join(V)}</record>", "give the record itself", PLAIN
+        f"<?xml version='1.0'?><record>{' '.join(V)}</record>", "use the record itself", PLAIN
     ),
     "a time series of OpenSees": Kind(
         lines(f"timeSeries Path 1 -dt {DT_S} -factor 9.80665 -values {{", *V, "}"),
-        "give the file of values that it reads", COLUMN, then=BOTH,
+        "use the file of values that it reads", COLUMN, then=BOTH,
     ),
     "a time series of OpenSees on one line": Kind(
         f"timeSeries Path 1 -dt {DT_S} -values {{{' '.join(V)}}}",
@@ -274,21 +274,21 @@ KINDS = {
         "or as counts per m/s2", then={"response": "100000"},
     ),
     "a response of accelerations": Kind(
-        PLAIN, "give the file alone", given={"response": "100000"}
+        PLAIN, "use the file alone", given={"response": "100000"}
     ),
     "units and a response": Kind(
-        COLUMN, "give one of them", given=BOTH | {"response": "100000"}, then=BOTH
+        COLUMN, "use one of them", given=BOTH | {"response": "100000"}, then=BOTH
     ),
     "an AT2 without its step": Kind(
-        across(V, 5, (*PEER, f"NPTS= {COUNT}")), "give the time step dt", then=STEP
+        across(V, 5, (*PEER, f"NPTS= {COUNT}")), "enter the time step dt", then=STEP
     ),
     "an AT2 whose count is no number": Kind(
         across(V, 5, (*PEER, "NPTS= many, DT= .0100 SEC")),
-        "give the count and the step as in NPTS=  4000, DT=   .0100 SEC",
+        "enter the count and the step as in NPTS=  4000, DT=   .0100 SEC",
         across(V, 5, (*PEER, NPTS)),
     ),
     "an AT2 of fewer values": Kind(
-        across(V[:150], 5, (*PEER, NPTS)), "give the whole file", across(V, 5, (*PEER, NPTS))
+        across(V[:150], 5, (*PEER, NPTS)), "use the whole file", across(V, 5, (*PEER, NPTS))
     ),
     "an AT2 of more values": Kind(
         across(V, 5, (*PEER, NPTS.replace("200", "150"))), "correct the count",
@@ -296,14 +296,14 @@ KINDS = {
     ),
     "an AT2 of velocity": Kind(
         across(V, 5, (*PEER[:2], "VELOCITY TIME SERIES IN UNITS OF CM/S", NPTS)),
-        "give the file of acceleration", across(V, 5, (*PEER, NPTS)),
+        "use the file of acceleration", across(V, 5, (*PEER, NPTS)),
     ),
     "a line too long": Kind(
-        "  ".join(V), "give at most 1000", across(V, 20),
+        "  ".join(V), "enter at most 1000", across(V, 20),
         given=BOTH, then=BOTH | {"values_per_line": 20},
     ),
     "a step of milliseconds": Kind(
-        COLUMN, "give a record with steps of", given=IN_G | {"dt_s": 10.0}, then=BOTH
+        COLUMN, "use a record with steps of", given=IN_G | {"dt_s": 10.0}, then=BOTH
     ),
 }  # fmt: skip
 

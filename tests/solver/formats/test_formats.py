@@ -258,7 +258,7 @@ def test_sensors_and_steps_of_headings_are_taken(altered):
     steps = [("       7.812500", unknown[1]), ("       0.005000", unknown[1])]
     path = altered("cosmos.v2c", *steps)
     assert problems_of(path, dt_s=0.01) == (
-        "cosmos.v2c:38: the heading states 0.164062 s, the record lasts 0.21 s; give dt with more"
+        "cosmos.v2c:38: the heading states 0.164062 s, the record lasts 0.21 s; enter dt with more"
         " digits, or a file whose headings agree",
     )
     path = altered("cosmos.v2c", *steps, ("       0.164062", unknown[1]))
@@ -269,60 +269,60 @@ COUNT = "      21       0       0      21"
 FAULTS = [
     ("geonet.v1a", [(COUNT, COUNT[:-2] + "22")], ":20: states 22 values, found 21"),
     ("geonet.v1a", [(COUNT, COUNT[:-4] + "none")],
-     ":20: found no number of accelerations; give the whole"),
-    ("cosmos.v2c", [("(1E15.6)", "(free)")], ":49: found format (free); give one as (8F10.3)"),
-    ("cosmos.v2c", [("cm/sec2(04)", "counts(50)")], ":49: found unit 'counts', code 50; give a f"),
+     ":20: found no number of accelerations; use the whole"),
+    ("cosmos.v2c", [("(1E15.6)", "(free)")], ":49: found format (free); enter one as (8F10.3)"),
+    ("cosmos.v2c", [("cm/sec2(04)", "counts(50)")], ":49: found unit 'counts', code 50; use a fi"),
     ("cosmos.v2c", [("cm/sec2(04)", "g(04)")], ":49: found unit 'g' with code 4, which is cm/s2;"),
     ("cosmos.v2c", [("approx  0 secs", "approx  9 secs")], ":49: states about 9 s, count times st"),
     ("cosmos.v2c", [("Real-header", "Some")], ":1: found no block ... Real-header values follow"),
     ("cosmos.v2c", [("-123.456000", "-923.456000")], ":38: the header states a peak of 0.9417 g,"),
-    ("cosmos.v2c", [("Corrected accel", "Raw accel")], ":1: found raw counts; give the volume 1"),
+    ("cosmos.v2c", [("Corrected accel", "Raw accel")], ":1: found raw counts; use the volume 1"),
     ("cosmos.v2c", [("       7.812500", "       0.000000"), ("       0.005000", "       0.000000")],
-     ":26: found no time step; give the time step dt"),
+     ":26: found no time step; enter the time step dt"),
     ("cosmos.v2c", [("21 acceleration pts", "21 velocity pts")],
-     ": found no acceleration in this COSMOS V1.20 file; give a file of acceleration"),
-    ("csmip-old.v2", [("  -45.250\r\n", "  -45.250   1.0000\r\n")], ":47: found 9 values; give 8"),
+     ": found no acceleration in this COSMOS V1.20 file; use a file of acceleration"),
+    ("csmip-old.v2", [("  -45.250\r\n", "  -45.250   1.0000\r\n")], ":47: found 9 values; enter 8"),
     ("csmip-old.v2", [("   21 POINTS OF ACCEL", "   22 POINTS OF ACCEL")], ":46: states 22 values"),
     ("csmip-old.v2", [("AT  .005 SEC.", "AT  .050 SEC.")], ":46: found a step of 0.05 s and one o"),
     ("csmip-old.v2", [("  -123.456    CM", "  -923.456    CM")], ":18: the header states a peak o"),
     ("csmip-new.v2", [("  .0078125", "      .008"), ("  .1640625", "  .2640625")],
-     ":38: the heading states 0.264062 s, the record lasts 0.168 s; give dt"),
-    ("renadic.v1", [("=     21", "=     26")], ":11: states 52 values, found 42; give the"),
+     ":38: the heading states 0.264062 s, the record lasts 0.168 s; enter dt"),
+    ("renadic.v1", [("=     21", "=     26")], ":11: states 52 values, found 42; use the"),
     ("renadic.v1", [("NO. OF POINTS", "NO. OF THINGS")], ":1: found no line NO. OF POINTS"),
-    ("renadic.v1", [("AND G/10.", "AND VOLT.")], ":12: found unit 'VOLT'; give an acceler"),
+    ("renadic.v1", [("AND G/10.", "AND VOLT.")], ":12: found unit 'VOLT'; use an acceler"),
     ("renadic.v1", [("100.010  1.212", "100.000  1.212")], ":28: found time 100 s after 100"),
-    ("csmip-even.raw", [("at 200 pts/sec", "at 0 pts/sec")], ":28: found time step 0 s; give a"),
+    ("csmip-even.raw", [("at 200 pts/sec", "at 0 pts/sec")], ":28: found time step 0 s; enter a"),
     ("geonet.v2a", [(" at 0.020 sec inter", " at 0.010 sec inter")], ":11: found a step of 0.01 s"),
     ("geonet.v2a", [("Acceleration:", "Accel:")], ":14: found no line Acceleration: peak ... mm/s"),
     ("geonet.v2a", [("  0.0000 -1234.6", "  0.0000 -9234.6")], ":24: the header states a peak of"),
-    ("esm.asc", [("NDATA: 21", "NDATA: many")], ":18: found 'many'; give the number of values"),
+    ("esm.asc", [("NDATA: 21", "NDATA: many")], ":18: found 'many'; enter the number of values"),
     ("esm.asc", [("DATA_TYPE: ACC", "DATA_TYPE: VELOCITY OR ACC"), ("cm/s^2", "cm/s")],
-     ":21: found unit 'cm/s'; give"),
+     ":21: found unit 'cm/s'; use"),
     ("esm.asc", [("ACCELERATION", "ACCELERATION RESPONSE SPECTRUM")], ":27: found acceleration"),
     ("esm.asc", [("-123.456000", "-923.456000")], ":23: the header states a peak of 0.9417 g, the"),
     ("esm.asc", [("\n0.750000", "\n0.7")], ":47: found '0.7', with fewer digits than all other"),
     ("esm.asc", [("0.005000", "0.050000")], ":19: the heading states 0.105 s, the record lasts"),
     ("afad.txt", [("NUMBER OF DATA                  : 21", "NUMBER OF DATA: 22")],
-     ":13: states 66 values, found 63; give the whole file"),
-    ("afad.txt", [("     0.062500\r", "\r")], ":19: found 2 values; give 3"),
+     ":13: states 66 values, found 63; use the whole file"),
+    ("afad.txt", [("     0.062500\r", "\r")], ":19: found 2 values; enter 3"),
     ("afad.txt", [("(gal)            : (N", "(count)            : (N")], ":15: found unit 'count'"),
     ("knet.csv", [("#1\n#Offset", "#3\n#Offset")], ":12: the heading states 3 s, the record lasts"),
-    ("knet.csv", [("13.12,", "13.12")], ":19: found 4 columns; give 5"),
-    ("knet.csv", [("(s),N-S(gal)", "(s),N-S[gal]")], ":16: found 'N-S[gal]'; give a column as N-S"),
+    ("knet.csv", [("13.12,", "13.12")], ":19: found 4 columns; enter 5"),
+    ("knet.csv", [("(s),N-S(gal)", "(s),N-S[gal]")], ":16: found 'N-S[gal]'; enter a column as"),
     ("eqsig.txt", [("\n21 ", "\n20 ")], ":2: states 20 values, found 21; correct the count"),
     ("peer-nga.at2", [("PEER NGA", "ACCELERATION (CM/S2)")], ":3: found units CM/S2 and G;"),
     ("knet.ns", [("Duration Time(s)  0.2", "Duration Time(s)  0.3")], ":12: states 30 values, fou"),
-    ("knet.ns", [("3920(gal)/6182761", "3920/6182761")], ":14: found '3920/6182761'; give a scale"),
+    ("knet.ns", [("3920(gal)/6182761", "3920/6182761")], ":14: found '3920/6182761'; enter a"),
     ("knet.ns", [("6182761", "618276")], ":15: the header states a peak of 0.01599 g, the values"),
-    ("knet.ns", [("Memo.", "Remark")], ": found no line Memo.; give the whole heading"),
+    ("knet.ns", [("Memo.", "Remark")], ": found no line Memo.; use the whole heading"),
     ("smc-corrected.smc", [("        21  ", "        22  ")], ":14: states 22 values, f"),
     ("smc-corrected.smc", [("         2\r", "         3\r")], ":30: found a line without | am"),
     ("smc-corrected.smc", [("-0.1234600E+03", "-0.9234600E+03")], ":23: the header states a pe"),
     ("smc-corrected.smc", [("2 CORRECTED ACCELEROGRAM", "3 VELOCITY")], ":1: found velocity"),
     ("smc-uneven.smc", [(" 2.0000E-2", " 1.1000E-2")], ":30: found time 0.011 s after 0.012 s,"),
-    ("smc-uneven.smc", [("-6.1250E+1", "          ")], ":14: states 26 values, found 25; g"),
+    ("smc-uneven.smc", [("-6.1250E+1", "          ")], ":14: states 26 values, found 25; u"),
     ("smc-uneven.smc", [("-6.1250E+1", "          "), ("        26  ", "        25  ")],
-     ":31: found 1 values; give pairs of time and acceleration"),
+     ":31: found 1 values; enter pairs of time and acceleration"),
 ]  # fmt: skip
 
 
@@ -331,7 +331,7 @@ def test_a_fault_is_told_with_its_line(altered, name, changes, expected):
     (problem,) = problems_of(altered(name, *changes))
     assert problem.startswith(f"{name}{expected}")
     if "CORRECTED ACC" in changes[0][0]:
-        assert problem.endswith("; give a file of acceleration")
+        assert problem.endswith("; use a file of acceleration")
 
 
 @pytest.mark.parametrize(
@@ -348,7 +348,7 @@ def test_faults_of_all_channels_are_told_together_with_their_lines(altered, name
     lines = path.read_text().splitlines()
     assert problems_of(path) == tuple(
         f"{name}:{1 + next(i for i, line in enumerate(lines) if text in line)}: found '{text}'; "
-        "give a number"
+        "enter a number"
         for text in found
     )
 
@@ -370,10 +370,10 @@ def test_what_the_caller_says_must_agree(name, units, written, other, step, othe
     agreed = read_motion_file(path, units=units, dt_s=float(step))
     assert [record.dt_s for record in agreed.channels] == [held.dt_s] * len(held.channels)
     told = problems_of(path, units=other)
-    said = f"the file is in {written} but units are {other}; give the units of the file, or none"
+    said = f"the file is in {written} but units are {other}; enter the file's units, or none"
     assert all(one.startswith(f"{name}:") and one.endswith(said) for one in told)
     told = problems_of(path, dt_s=other_s)
-    said = f"the time step of the file is {step} s but the one given is {other_s:g} s; give"
+    said = f"the time step of the file is {step} s but the one given is {other_s:g} s; enter"
     assert all(said in one for one in told)
 
 
@@ -385,7 +385,7 @@ def test_a_cut_file_and_one_without_units_say_so(file):
         "no end-of-data line (/&) follows the values: the file may be truncated",
     )
     bare = "SOMETHING\nELSE\n\nNPTS= 2, DT= .01 SEC\n1 2\n"
-    assert problems_of(file(bare))[0].startswith("roof.csv: found no unit of acceleration; give")
+    assert problems_of(file(bare))[0].startswith("roof.csv: found no unit of acceleration; enter")
     record = read_motion_file(file(bare), units="gal").channel()
     assert (record.name, record.a_mps2.tolist()) == ("roof.csv", [0.01, 0.02])
 
@@ -401,11 +401,11 @@ ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz
     ("content", "expected"),
     [
         ("RESPONSE AND FOURIER AMPLITUDE SPECTRA\nCORRECTED ACCELEROGRAM\n",
-         ":1: found spectra; give a file of volume 1 or 2"),
+         ":1: found spectra; use a file of volume 1 or 2"),
         ("Corrected acceleration    (Format v01.20 with 13 text lines)\n" + SERIES * 2000,
-         ": found 2000 channels; give at most 1000 in a file"),
+         ": found 2000 channels; enter at most 1000 in a file"),
         ("PEER\nX, Y, 1\nVELOCITY TIME HISTORY IN UNITS OF CM/S\nNPTS= 2, DT= .01 SEC\n1 2\n",
-         ":3: found velocity; give the file of acceleration"),
+         ":3: found velocity; use the file of acceleration"),
     ],
 )  # fmt: skip
 def test_what_is_no_record_is_refused(file, content, expected):
@@ -442,13 +442,13 @@ def test_the_unit_of_a_count_and_step_is_found_however_it_is_said(file, line):
 @pytest.mark.parametrize(
     ("line", "values", "expected"),
     [
-        ("NPTS= 3, DT= 5 USEC", "1 2 3", "4: found a step in usec; give it in s, ms or min"),
-        ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; give the whole file"),
-        ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; give the time step dt"),
-        ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; give a number above 0"),
-        ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; give the count and the step as in NPTS="),
-        ("NPTS= 3, DT= .01 SEC", "1 wide 3", "5: found 'wide'; give a number"),
-        ("NPTS= 0, DT= .01 SEC", "", "4: states 0 values; give at least 2"),
+        ("NPTS= 3, DT= 5 USEC", "1 2 3", "4: found a step in usec; enter it in s, ms or min"),
+        ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; use the whole file"),
+        ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; enter the time step dt"),
+        ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; enter a number above 0"),
+        ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; enter the count and the step as in NPTS="),
+        ("NPTS= 3, DT= .01 SEC", "1 wide 3", "5: found 'wide'; enter a number"),
+        ("NPTS= 0, DT= .01 SEC", "", "4: states 0 values; enter at least 2"),
     ],
 )
 def test_faults_of_a_short_file_are_told_with_their_line(file, line, values, expected):

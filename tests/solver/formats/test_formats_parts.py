@@ -54,13 +54,13 @@ def test_a_channel_is_chosen_by_name_then_by_number():
 @pytest.mark.parametrize(
     ("names", "wanted", "problem"),
     [
-        ("x y", "", "found several channels; give one by name or number: 1 x; 2 y"),
+        ("x y", "", "found several channels; use one by name or number: 1 x; 2 y"),
         *(
-            ("x y", name, f"found no channel '{name}'; give one by name or number: 1 x; 2 y")
+            ("x y", name, f"found no channel '{name}'; use one by name or number: 1 x; 2 y")
             for name in ("z", "3", "0", "-1")
         ),
         ("North Vertical", "vertcal",
-         "found no channel 'vertcal'; did you mean 'Vertical'? Give one by name or number: "
+         "found no channel 'vertcal'; did you mean 'Vertical'? Use one by name or number: "
          "1 North; 2 Vertical"),
     ],
 )  # fmt: skip
@@ -77,10 +77,10 @@ def test_names_and_notes_of_channels_differ_and_long_lists_are_cut():
     assert made("x", notes=("odd",)).notes == ("of the file", "odd")
     assert made("x", "y", notes=("odd",)).notes == ("of the file", "x: odd", "y: odd")
     (problem,) = input_problems(made)
-    assert problem.startswith("a.v2: found no acceleration in this made file; give a")
+    assert problem.startswith("a.v2: found no acceleration in this made file; use a")
     short = Record(name="x", dt_s=0.01, a_mps2=np.zeros(1), notes=())
     (problem,) = input_problems(motion_file, SOURCE, "made", [short])
-    assert problem == "a.v2: found 1 sample; give at least 2"
+    assert problem == "a.v2: found 1 sample; enter at least 2"
 
 
 def test_stated_peaks_and_offsets_are_told():
@@ -299,9 +299,9 @@ def test_short_lines_are_allowed_only_where_they_are_asked_for():
     layout, lines = FieldFormat(per_line=2, width=4), ("   1   2", "   3    ", "   4   5")
     assert fixed_rows(source(*lines), block(5, 3), layout).tolist() == [1, 2, 3, 4, 5]
     told = input_problems(fixed_values, source(*lines), block(6, 3), layout)
-    assert told == ("a:2: found 1 value; give 2",)
+    assert told == ("a:2: found 1 value; enter 2",)
     told = input_problems(fixed_rows, source("  1x   2"), block(2, 1), layout)
-    assert told == ("a:1: found '1x'; give a number",)
+    assert told == ("a:1: found '1x'; enter a number",)
 
 
 @pytest.mark.parametrize("field", ["1_0", "nan", "inf", "1e999", "", "1 2", "****", "٣"])
@@ -315,8 +315,8 @@ def test_what_python_or_numpy_may_take_but_is_no_number_is_refused(field):
 @pytest.mark.parametrize(
     ("count", "told"),
     [
-        (5, "found 4; give the whole"),
-        (9, "found 4; give the whole"),
+        (5, "found 4; use the whole"),
+        (9, "found 4; use the whole"),
         (3, "found 4; correct the count"),
         (2, "found more in line 2"),
     ],

@@ -136,7 +136,7 @@ def test_no_damage_of_a_line_or_cut_in_the_last_value_changes_a_record_without_a
     [
         # Sixty-six lines of two channels: one channel, and the heading of the other.
         ("cosmos.v1c", 66, "cosmos.v1c:58: found a heading without a line ... pts, approx ... sec"),
-        ("csmip-even.raw", 50, "csmip-even.raw:43: states 42 values, found 0; give the whole"),
+        ("csmip-even.raw", 50, "csmip-even.raw:43: states 42 values, found 0; use the whole"),
         ("geonet.v1a", 58, "geonet.v1a:30: found the heading of component 2, the last one, where"),
     ],
 )
@@ -151,13 +151,13 @@ def test_a_file_cut_after_its_first_channel_is_refused(file, name, kept, expecte
     [
         # 2.5 of 2.500000e+00 is a number, and so is 9.8 of 9.800000e+01.
         ("cosmos.v2c", "   9.800000e+01", "   9.800000", "54: found a line of 11 characters that"
-         " ends within a field of 15; give the whole file"),
+         " ends within a field of 15; use the whole file"),
         ("peer-nga.at2", "-.3125000E-01", "-.3125", "6: found '-.3125' at the end, with fewer"
-         " digits than all other values; give the whole file"),
+         " digits than all other values; use the whole file"),
         ("geonet.v1a", "Duration   0.10 sec", "Duration   0.90 sec", "10: the heading states 0.9 s,"
-         " the record lasts 0.105 s; give dt with more digits, or a file whose headings agree"),
+         " the record lasts 0.105 s; enter dt with more digits, or a file whose headings agree"),
         ("csmip-pairs.v1", "     0.600     0.120", "     0.600     0.220", "21: the heading states"
-         " 0.22 s, the record lasts 0.12 s; give dt with more digits, or a file whose headings"
+         " 0.22 s, the record lasts 0.12 s; enter dt with more digits, or a file whose headings"
          " agree"),
     ],
 )  # fmt: skip
@@ -189,7 +189,7 @@ def test_a_last_value_cut_short_is_refused_and_stated_steps_are_compared(file, a
     assert read_motion_file(file(VALUES), units="g").notes == ()
     assert problems_of(file(VALUES[:-3]), units="g") == (
         "roof.csv:20: found '-0.12' at the end, with fewer digits than the values before it and"
-        " without a line end; give the whole file, or end its last line",
+        " without a line end; use the whole file, or end its last line",
     )
     for lines in (1, 60):
         text = VALUES[:-3] + "\n" + "\n".join(["# end"] * lines)
@@ -199,7 +199,7 @@ def test_a_last_value_cut_short_is_refused_and_stated_steps_are_compared(file, a
     assert read_motion_file(file(VALUES[:-3] + "\n"), units="g").notes == ()
     assert read_motion_file(file(f"# dt = 0.01 s\ntime_s,acc_g\n{ROWS}")).channel().dt_s == 0.01
     assert problems_of(file(f"# dt = 0.02 s\ntime_s,acc_g\n{ROWS}")) == (
-        "roof.csv:1: states a step of 0.02 s, the times have 0.01 s; give a file in which they"
+        "roof.csv:1: states a step of 0.02 s, the times have 0.01 s; use a file in which they"
         " agree",
     )
     path = altered("peer-nga.at2", (".2500000E+00", ".25"), ("-.3125000E-01", "-.0625"))
@@ -215,7 +215,7 @@ def test_a_text_that_states_its_samples_is_held_to_it(file, words):
     assert len(read_motion_file(file(text)).channel().a_mps2) == 20
     cut = "".join(text.splitlines(keepends=True)[:-3])
     assert problems_of(file(cut)) == (
-        "roof.csv:1: states 20 samples, found 17; give the whole file",
+        "roof.csv:1: states 20 samples, found 17; use the whole file",
     )
     assert problems_of(file(text + "0.20,0.1\n")) == (
         "roof.csv:1: states 20 samples, found 21; correct the count",
@@ -230,30 +230,30 @@ def refusals(path, units="g", dt_s=math.nan):
     ("content", "kind"),
     [
         (b"MS\x03\x00", "miniSEED 3; convert it to times and accelerations, for example"),
-        (b"PK\x03\x04\x14\x00", "a zip or a workbook; unpack it, or save its sheet as CSV"),
-        (b"%PDF-1.7\n\x00\x01", "a PDF; give its numbers as text or CSV"),
+        (b"PK\x03\x04\x14\x00", "a zip or a workbook; unpack it, or save its worksheet as CSV"),
+        (b"%PDF-1.7\n\x00\x01", "a PDF; export its numbers as text or CSV"),
     ],
 )
 def test_a_known_kind_of_file_is_named_with_what_to_do(file, content, kind):
     (problem,) = refusals(file(content))
     assert problem.startswith(f"roof.csv: not a text file; {kind}")
     for unknown in (b"\x89PNG\r\n\x1a\n\x00", b"\xff\xfe\x00", b"a\x1a\x00b"):
-        told = ("roof.csv: not a text file; give text or CSV",)
+        told = ("roof.csv: not a text file; use text or CSV",)
         assert refusals(file(unknown)) == told
 
 
 def test_what_is_no_file_or_too_large_or_long_is_refused(tmp_path, file):
     assert refusals(tmp_path / "none.csv")[0].startswith("none.csv: no such file")
-    assert refusals(tmp_path)[0].startswith(f"{tmp_path.name}: is a folder; give a file")
+    assert refusals(tmp_path)[0].startswith(f"{tmp_path.name}: is a folder; use a file")
     with (tmp_path / "roof.csv").open("wb") as hollow:
         hollow.truncate(MAX_BYTES + 1)
     (problem,) = refusals(tmp_path / "roof.csv")
     assert problem.startswith(f"roof.csv: larger than {MAX_BYTES // 1_000_000} MB")
     assert refusals(file("0 1\n" + "1" * 1200)) == (
-        "roof.csv:2: found a line of 1200 characters; give at most 1000",
+        "roof.csv:2: found a line of 1200 characters; enter at most 1000",
     )
     assert refusals(file("0\n" * 1_000_001 + "x")) == (
-        "roof.csv: found 1,000,002 lines; give at most 1,000,000",
+        "roof.csv: found 1,000,002 lines; enter at most 1,000,000",
     )
 
 
@@ -277,8 +277,8 @@ def test_line_ends_marks_of_order_and_of_the_end_are_taken_off(file, content):
 @pytest.mark.parametrize("dt_s", [0.0, -0.01, math.inf])
 def test_unknown_units_and_impossible_steps_are_refused_together(file, dt_s):
     problems = refusals(file("0,1\n"), units="furlong", dt_s=dt_s)
-    assert problems[0] == "roof.csv: unit is 'furlong'; give one of g, m/s2, cm/s2, mm/s2, gal"
-    assert problems[1].startswith(f"roof.csv: time step dt is {dt_s!r}; give a number")
+    assert problems[0] == "roof.csv: unit is 'furlong'; enter one of g, m/s2, cm/s2, mm/s2, gal"
+    assert problems[1].startswith(f"roof.csv: time step dt is {dt_s!r}; enter a number")
     source = open_source(file("x"), units="", dt_s=math.nan)
     (problem,) = input_problems(source.step, Stated(value=dt_s, rounding=0.0, index=0))
-    assert problem == f"roof.csv:1: found time step {dt_s:g} s; give a number above 0"
+    assert problem == f"roof.csv:1: found time step {dt_s:g} s; enter a number above 0"

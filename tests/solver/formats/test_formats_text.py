@@ -76,10 +76,10 @@ def test_any_dialect_of_a_table_has_the_same_samples(
     ("content", "problem"),
     [
         # The third column has a heading and no values: it is not taken for a comma at the ends.
-        ("t,a,b\n0,1,\n1,2,\n", "2: found ''; give a number"),
+        ("t,a,b\n0,1,\n1,2,\n", "2: found ''; enter a number"),
         # Points and commas: which of them groups thousands is not said.
-        ("t;a\n0;1.000\n1;0,5\n", "3: found '0,5'; give a number with a decimal point"),
-        ("t;a\n0;1,000\n1;2,500\n", "2: found '1,000'; give a number with a decimal point"),
+        ("t;a\n0;1.000\n1;0,5\n", "3: found '0,5'; enter a number with a decimal point"),
+        ("t;a\n0;1,000\n1;2,500\n", "2: found '1,000'; enter a number with a decimal point"),
     ],
 )
 def test_what_may_mean_two_things_is_refused(file, content, problem):
@@ -114,9 +114,13 @@ def test_gravity_raw_counts_and_values_across_lines_are_read_as_told(file):
 @pytest.mark.parametrize(
     ("content", "due", "problem"),
     [
-        (ACROSS, 4, ":1: found 3 values; give 4 as in every line but the last"),
-        (ACROSS.replace(" 0.5", ""), 3, ":2: found 2 values; give 3 as in every line but the last"),
-        (ACROSS, -1, ": values per line is -1; give 1, 2, ..."),
+        (ACROSS, 4, ":1: found 3 values; enter 4 as in every line but the last"),
+        (
+            ACROSS.replace(" 0.5", ""),
+            3,
+            ":2: found 2 values; enter 3 as in every line but the last",
+        ),
+        (ACROSS, -1, ": values per line is -1; enter 1, 2, ..."),
     ],
 )
 def test_a_line_of_another_number_of_values_is_refused(file, content, due, problem):
@@ -133,7 +137,7 @@ def test_a_peak_that_no_roof_reaches_asks_for_the_unit(file, head, peak, is_read
         return
     (problem,) = problems_of(path, units="")
     assert problem.startswith(f"roof.csv: the values reach {peak:g} g, and no ground or roof")
-    assert problem.endswith("is it cm/s2? Give the units that they have, or correct them")
+    assert problem.endswith("is it cm/s2? Enter the units that they have, or correct them")
 
 
 # Values across the lines, of which no column rises, and what others write between them.
@@ -214,11 +218,11 @@ def test_what_the_message_on_a_column_that_counts_the_lines_advises_works(file):
 def test_two_tables_side_by_side_are_told(file):
     rows = [f"{0.01 * k:.2f} {a:.4f} {0.01 * k:.2f} {-a:.4f}" for k, a in enumerate(WAVED)]
     (problem,) = problems_of(file("\n".join(rows)))
-    assert problem.endswith("; columns 1 and 3 are the same: tables side by side; give one of them")
+    assert problem.endswith("; columns 1 and 3 are the same: tables side by side; use one of them")
     heads = "time_s,a_g,time_s,b_g"
     (problem,) = problems_of(file("\n".join([heads, *(row.replace(" ", ",") for row in rows)])))
     assert problem == (
-        "roof.csv: found times in columns 1 and 3: tables side by side; give one of them"
+        "roof.csv: found times in columns 1 and 3: tables side by side; use one of them"
     )
 
 
@@ -342,66 +346,66 @@ LETTERS = "time_s,ch_f,ch_g,ch_h\n0,1,2,3\n1,4,5,6\n"
 
 
 RAW = (
-    "raw counts are no acceleration without the response of the instrument; give it (motion convert"
-    " --response), as StationXML for miniSEED and SAC, or as counts per m/s2"
+    "raw counts are no acceleration without the response of the instrument; enter it (motion"
+    " convert --response), as StationXML for miniSEED and SAC, or as counts per m/s2"
 )
 NONE, WHICH = {"units": ""}, "the comment states gal, the heading 'acc_g' states g: which is it?"
 REFUSED = {
     "no unit": ("time,acc\n0,100\n1,200\n", NONE,
-        ": found no unit of acceleration; give units, one of g, m/s2, cm/s2, mm/s2, gal, or a"
+        ": found no unit of acceleration; enter units, one of g, m/s2, cm/s2, mm/s2, gal, or a"
         " heading such as acc_g"),
     "a letter is no unit": (LETTERS, NONE,
-        ": found no unit of acceleration; give units, one of g, m/s2, cm/s2, mm/s2, gal, or a"
+        ": found no unit of acceleration; enter units, one of g, m/s2, cm/s2, mm/s2, gal, or a"
         " heading such as acc_g"),
     "another unit is given": ("# x\ntime_s,acc_gal\n0,100\n1,200\n", {},
-        ":2: the file is in gal but units are g; give the units of the file, or none"),
+        ":2: the file is in gal but units are g; enter the file's units, or none"),
     "two units": ("# in g\n# units: gal\n0,1\n1,2\n", NONE, ":2: found units g and gal;"
         " correct one of them"),
     "a comment contradicts": (TWO_UNITS, NONE,
-        f":2: {WHICH} Correct one of them, or give the units"),
+        f":2: {WHICH} Correct one of them, or enter the units"),
     "a third unit": (TWO_UNITS, {"units": "m/s2"},
-        f":2: {WHICH} Correct one of them, or give the units"),
+        f":2: {WHICH} Correct one of them, or enter the units"),
     "a remark has another step": ("# dt = 0.005\n1\n2\n", {"dt_s": 0.01},
-        ":1: the time step of the file is 0.005 s but the one given is 0.01 s; give the time step"
+        ":1: the time step of the file is 0.005 s but the one given is 0.01 s; enter the time step"
         " of the file, or none"),
     "times have another step": ("0,1\n0.01,2\n", {"dt_s": 0.02},
-        ":1: the time step of the file is 0.01 s but the one given is 0.02 s; give the time step"
+        ":1: the time step of the file is 0.01 s but the one given is 0.02 s; enter the time step"
         " of the file, or none"),
     "no channel is chosen": (CHANNELS, NONE,
-        ": found several channels; give one by name or number: 1 NS; 2 EW; 3 UD"),
+        ": found several channels; use one by name or number: 1 NS; 2 EW; 3 UD"),
     "columns without times": ("x_g,y_g\n1,2\n0,4\n", {},
-        ": found columns without times; give the time step dt"),
+        ": found columns without times; enter the time step dt"),
     **{f"times in {unit}": (f"Time [{unit}],a_g\n0,1\n1,2\n", NONE,
-        f":1: found times in '{unit}'; give them in s, ms or min, such as time_s")
+        f":1: found times in '{unit}'; enter them in s, ms or min, such as time_s")
        for unit in ("us", "h", "samples", "UTC")},
     **{f"an index and dt {dt_s}": ("sample,a_g\n0,1\n1,2\n", NONE | {"dt_s": dt_s},
-        ":1: found 'sample' over the first column; give times in seconds, such as time_s, or"
-        " delete the column and give the time step dt")
+        ":1: found 'sample' over the first column; enter times in seconds, such as time_s, or"
+        " delete the column and enter the time step dt")
        for dt_s in (math.nan, 0.005)},
     **{f"only {heading}": (f"time_s,{heading}\n0,1\n1,2\n", {},
-        f": found no component of acceleration beside '{heading}', not an acceleration: give one a"
-         " heading such as acc_g")
+        f": found no component of acceleration beside '{heading}', not an acceleration: name one"
+         " with a heading such as acc_g")
        for heading in ("vel_cm/s", "velocity_g", "velocity", "Disp. [gal]")},
     **{f"only a magnitude {name}": (f"time_s,{name} [g]\n0,1\n1,2\n", {},
         f": found no component of acceleration beside '{name} [g]', the magnitude of a vector, not"
-        " a component: give one a heading such as acc_g")
+        " a component: name one with a heading such as acc_g")
        for name in ("Abs", "Resultant", "Vector sum", "|a|", "Total", "acc_mag", "aT", "SRSS")},
     **{f"raw counts {name}": (f"time_s,{name}\n0,1\n1,2\n", {},
         f":1: found unit 'counts': {RAW}") for name in ("x_counts", "EW (counts)")},
     **{f"a time of day {time}": (f"time,a_g\n{time},1\n{time},2\n", {},
-        f":2: found {time!r}, a date or a time of day; give seconds from the start in the first"
+        f":2: found {time!r}, a date or a time of day; enter seconds from the start in the first"
         " column, such as time_s")
        for time in ("10:11:12:130", "2024-03-05T10:11:12.5Z", "5/3/2024")},
     **{f"no unit of {name}": (f"{name},a_g\n" + "".join(f"{5 * k},0\n" for k in range(20)), {},
-        f":1: found {name!r} with steps of 5; give the unit of the times, such as time_s or"
+        f":1: found {name!r} with steps of 5; enter the unit of the times, such as time_s or"
         " time_ms") for name in ("time", "timestamp")},
     "a rate contradicts": ("# Sampling rate: 100 Hz\ntime_s,a_g\n0,1\n0.02,2\n", {},
-        ":1: states a step of 0.01 s, the times have 0.02 s; give a file in which they agree"),
+        ":1: states a step of 0.01 s, the times have 0.02 s; use a file in which they agree"),
     "commas for thousands": ("t_s;a_gal\n0;1.5\n1;1,234.5\n", NONE,
-        ":3: found '1,234.5'; give a number without commas for thousands"),
+        ":3: found '1,234.5'; enter a number without commas for thousands"),
     "only a heading with blanks": ("Time (sec)   Vel (m/s)\n0.0 0.0\n0.012 1.0\n0.02 2.0\n", {},
-        ": found no component of acceleration beside 'Vel (m/s)', not an acceleration: give one a"
-        " heading such as acc_g"),
+        ": found no component of acceleration beside 'Vel (m/s)', not an acceleration: name one"
+        " with a heading such as acc_g"),
 }  # fmt: skip
 
 
@@ -413,12 +417,12 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
 @pytest.mark.parametrize(
     ("content", "expected"),
     [
-        ("0,1\n0.1,abc\n", ["2: found 'abc'; give a number"]),
-        ("0,1\n0.1,NaN\n0.2,-inf\n", ["2: found 'NaN'; give", "3: found '-inf'; give"]),
+        ("0,1\n0.1,abc\n", ["2: found 'abc'; enter a number"]),
+        ("0,1\n0.1,NaN\n0.2,-inf\n", ["2: found 'NaN'; enter", "3: found '-inf'; enter"]),
         ("0,1\n0.1,1_0\n0.2,x\n", ["2: found '1_0'", "3: found 'x'"]),
-        ("0 1\n0.1\n0.2 1 2\n", ["2: found 1 column; give 2", "3: found 3 columns; give 2"]),
-        ("0,0;0,12\n0.1;2\n", ["1: found '0,0'; give a number with a decimal point", "1: fou"]),
-        ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; give a number with a decimal"]),
+        ("0 1\n0.1\n0.2 1 2\n", ["2: found 1 column; enter 2", "3: found 3 columns; enter 2"]),
+        ("0,0;0,12\n0.1;2\n", ["1: found '0,0'; enter a number with a decimal point", "1: fou"]),
+        ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; enter a number with a decimal"]),
         ("2 1\n1 2\n0 3\n", ["2: found time 1 s after 2 s", "3: found time 0 s after 1 s"]),
         ("065XXX010101\nCSMNC\n\n1 2\n", ["1: found '065XXX010101' where numbers are due, and"]),
         ("word\nand some more\nin prose\n",
@@ -428,18 +432,18 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("SAP2000 v20\nFUNCTION  TH1\nTIME  VALUE\n0 1\n",
          ["2: found 'FUNCTION  TH1' where numbers are due, and no heading"]),
         ("model basic\ntimeSeries Path 1 -dt 0.01\n1 2\n", ["2: this looks like a program, which"]),
-        ("<html>\n<body>\n", ["2: this looks like a web page, which is not read; give the record"]),
+        ("<html>\n<body>\n", ["2: this looks like a web page, which is not read; use the record"]),
         ("TIMESERIES IU_X, 9 samples\n1 2 x\n", ["2: this looks like TSPAIR or SLIST of Earth"]),
-        ("# dt = 5 us\n1\n2\n", ["1: found a step in us; give it in s, ms or min"]),
-        ("# dt = 5\n1\n2\n", [" the time step is 5 s; give a record with steps of 1e-06 to 1 s"]),
-        ("# NPTS: 3\n1\n2\n", ["1: states 3 samples, found 2; give the whole file"]),
+        ("# dt = 5 us\n1\n2\n", ["1: found a step in us; enter it in s, ms or min"]),
+        ("# dt = 5\n1\n2\n", [" the time step is 5 s; use a record with steps of 1e-06 to 1 s"]),
+        ("# NPTS: 3\n1\n2\n", ["1: states 3 samples, found 2; use the whole file"]),
         ("1 0.1\n2 0.2\n3 0.1\n" + "".join(f"{k} 0\n" for k in range(4, 20)),
-         ["1: found a first column with steps of 1; give the unit of the times, such as time_s"]),
+         ["1: found a first column with steps of 1; enter the unit of the times, such as time_s"]),
         *((f"{sign}   1.0e-03 *\n\n 0.1\n 0.2\n",
            ["1: found '1.0e-03 *', a factor of the numbers below it; multiply them all by it, and"])
           for sign in ("", "# ")),
         ("1 2 3\n4 5 6\n7\n", ["3: found 1 values after lines of 3: values across the lines, not"]),
-        ("60 0.1\n1 2 3\n4 5 6\n7\n", ["1: states 60 values, found 7; give the whole file"]),
+        ("60 0.1\n1 2 3\n4 5 6\n7\n", ["1: states 60 values, found 7; use the whole file"]),
         (
             "100 7\n1\n2\n3\n",
             ["1: found 2 numbers above rows of 1; if they are no samples, put # be"],
@@ -447,11 +451,11 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("made motion\n0.01 7\n1\n2\n3\n", ["2: found 2 numbers above rows of 1; if they are no"]),
         ("0 1\n2 0\n" * 6,
          [" found 2 columns without a heading, and the first is no time: it fal"]),
-        ("t,x,y,z\n0,1,2\n1,2,3\n", ["1: found 4 headings over 3 columns; give one"]),
-        ("n,t_s,x_g\n0,1,2\n1,2,3\n", [" found times in column 2; give them in the"]),
+        ("t,x,y,z\n0,1,2\n1,2,3\n", ["1: found 4 headings over 3 columns; enter one"]),
+        ("n,t_s,x_g\n0,1,2\n1,2,3\n", [" found times in column 2; put them in the f"]),
         ("", [" found no numbers"]),
-        ("0,1\n", [" found 1 sample; give at least 2"]),
-        ("1\n2\n", [" found one column, without times; give the time step dt"]),
+        ("0,1\n", [" found 1 sample; enter at least 2"]),
+        ("1\n2\n", [" found one column, without times; enter the time step dt"]),
     ],
 )  # fmt: skip
 def test_each_line_at_fault_is_named_with_what_would_do(file, content, expected):
@@ -463,7 +467,7 @@ def test_each_line_at_fault_is_named_with_what_would_do(file, content, expected)
 def test_many_faults_are_cut_short_and_counted_to_a_limit(file):
     problems = problems_of(file("0.1\n" + "x\n" * 37), dt_s=0.1)
     assert len(problems) == 11
-    assert problems[9:] == ("roof.csv:11: found 'x'; give a number", "... and 27 more")
+    assert problems[9:] == ("roof.csv:11: found 'x'; enter a number", "... and 27 more")
     problems = problems_of(file("0.1\n" + "x\n" * 12_000), dt_s=0.1)
     assert problems[10:] == ("... and more than 10000 more",)
 
@@ -481,7 +485,7 @@ def test_a_spectrum_is_no_record(file, head, named):
     separator = next((mark for mark in ",;\t" if mark in head), ",")
     width = head.count(separator) + 1
     rows = [separator.join([f"{0.1 * k:.1f}", *["0.3"] * (width - 1)]) for k in range(1, 40)]
-    wanted = f"roof.csv:1: found {named}: this is a spectrum, no record; give accelerations by time"
+    wanted = f"roof.csv:1: found {named}: this is a spectrum, no record; use accelerations by time"
     assert problems_of(file("\n".join([head, *rows]) + "\n")) == (wanted,)
 
 
@@ -511,7 +515,7 @@ def table_below(remark):
 def test_a_line_above_the_numbers_tells_of_a_spectrum(file, remark):
     problems = problems_of(file(table_below(remark)))
     assert problems[0].startswith("roof.csv:1: found ")
-    assert "spectrum, no record; give accelerations by time" in problems[0]
+    assert "spectrum, no record; use accelerations by time" in problems[0]
     # Below the name of a spectrum, a record has values of both signs.
     assert read_record(file("# Matched to the response spectrum of the site\n0.1\n-0.2\n0.3\n"),
                        units="g", dt_s=0.01)  # fmt: skip
@@ -530,7 +534,7 @@ def test_a_line_above_the_numbers_tells_of_a_spectrum(file, remark):
 def test_a_line_above_the_numbers_tells_of_another_quantity(file, remark, named):
     path = file(remark + "\n0.00 0.1\n0.01 -0.2\n0.02 0.3\n")
     (problem,) = problems_of(path)
-    assert problem.startswith(f"roof.csv:1: found {named!r}, and no acceleration; give "), problem
+    assert problem.startswith(f"roof.csv:1: found {named!r}, and no acceleration; use "), problem
     head, _, rows = path.read_text().partition("\n")
     # A heading of accelerations decides.
     assert read_record(file(f"# {head}\ntime_s acc_g\n{rows}"))
@@ -565,7 +569,7 @@ def test_a_count_and_a_step_above_times_are_no_sample(file, head):
     assert (record.dt_s, len(record.a_mps2)) == (0.01, 12)
     place = head.count("\n")
     assert problems_of(file(f"{head}{rows}".replace("12", "12 0.02 #"))) == (
-        f"roof.csv:{place}: states a step of 0.02 s, the times have 0.01 s; give a file in which"
+        f"roof.csv:{place}: states a step of 0.02 s, the times have 0.01 s; use a file in which"
         " they agree",
     )
     (problem,) = problems_of(file(f"{head}{rows}"[:-10]))

@@ -142,11 +142,11 @@ class TestUnevenTimes:
 
     def test_uneven_times_agree_with_no_step_and_grow_to_a_limit(self, file):
         assert input_problems(read_record, file("0 1\n1 2\n3 4\n"), units="g", dt_s=1.0) == (
-            "roof.csv: found uneven times but the time step given is 1 s; give none, and the"
+            "roof.csv: found uneven times but the time step given is 1 s; omit it, and the"
             " record is resampled",
         )
         path = file("0 1\n1e-6 2\n2e-6 3\n3e-6 4\n1e9 5\n")
         (problem,) = input_problems(read_record, path, units="g")
-        assert problem.endswith("give a record of at most 2,000,000 steps")
+        assert problem.endswith("use a record of at most 2,000,000 steps")
         record = read_record(file("0 1\n1 2\n2 1\n3 2\n1999999 3\n"), units="g")
         assert (record.dt_s, record.a_mps2.size) == (1.0, 2_000_000)

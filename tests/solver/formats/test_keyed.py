@@ -123,16 +123,16 @@ def test_a_heading_gives_step_unit_components_and_start(file, form):
     ("content", "change", "problem"),
     [
         (CSMNC, (f"VALUE:    {PEAK}", "VALUE:    9.3"), ":8: the header states a peak of"),
-        (CSMNC, ("POINTS:  200", "POINTS:  208"), ":7: states 208 values, found 200; give the w"),
-        (CSMNC, ("0.010  SEC", "10  USEC"), ":7: found a step in usec; give it in s, ms or min"),
+        (CSMNC, ("POINTS:  200", "POINTS:  208"), ":7: states 208 values, found 200; use the w"),
+        (CSMNC, ("0.010  SEC", "10  USEC"), ":7: found a step in usec; enter it in s, ms or min"),
         (ISESD, ("samples:             200", "samples:             208"), ":8: states 208 values"),
-        (ISESD, ("m/s*s, m/s & s", "V"), ":10: found unit 'V'; give an acceleration in g, m/s2"),
+        (ISESD, ("m/s*s, m/s & s", "V"), ":10: found unit 'V'; use an acceleration in g, m/s2"),
         (CWA, ("SampleRate(Hz): 100", "SampleRate(Hz): 200"), ":6: found a step of 0.005 s and"),
         (CWA, ("(sec): 2\n", "(sec): 9\n"), ":5: the heading states 9 s, the record lasts 2 s"),
         (CWA, (f"N:   {max(WAVE):.3f}~  {min(WAVE):.3f}", "N:   9.3~ -9.0"), ":9: the header st"),
         (JMA, (" UNIT  = gal(cm/s/s)", " UNIT  = counts"), ":4: found unit 'counts': raw counts"),
         (UNAM, (f": /{PEAK}/{PEAK / 2}/", f": /{PEAK}/9/"), ":8: the header states a peak of 0.0"),
-        (SPANISH, ("muestras: 200", "muestras: dos"), ":4: found 'dos'; give the number of val"),
+        (SPANISH, ("muestras: 200", "muestras: dos"), ":4: found 'dos'; enter the number of val"),
     ],
 )
 def test_what_a_heading_states_must_be_so(file, content, change, problem):

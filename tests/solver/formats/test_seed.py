@@ -73,7 +73,7 @@ def test_raw_counts_are_divided_by_the_sensitivity_that_is_told(file, is_station
 @pytest.mark.parametrize("content", [miniseed(FLOATS), sac(FLOATS)])
 def test_samples_that_are_no_counts_are_in_the_unit_that_is_told(file, content):
     path = file(content, "x.sac")
-    assert problems_of(path)[0].startswith("x.sac: found no unit of acceleration; give units,")
+    assert problems_of(path)[0].startswith("x.sac: found no unit of acceleration; enter units,")
     (record,) = read_motion_file(path, units="cm/s2").channels
     assert record.a_mps2 == pytest.approx(FLOATS / 100.0, rel=1e-7)
     told = read_motion_file(path, response="1000")
@@ -122,10 +122,10 @@ def test_each_component_is_a_channel_and_without_obspy_what_to_install_said(file
         (miniseed(COUNTS), "found XX.ABC..HNE: raw counts are no acceleration without the"),
         (miniseed(0 * COUNTS), "found XX.ABC..HNE: raw counts are no acceleration without the"),
         (sac(COUNTS), "found .ABC..: raw counts are no acceleration without the"),
-        (sac(FLOATS, 7), ".ABC.. has velocity; give a record of acceleration"),
-        (miniseed(COUNTS)[:500], "damaged or cut miniSEED; give the whole file"),
-        (miniseed(COUNTS) * 2 + b"000002D ABC", "damaged or cut miniSEED; give the whole file"),
-        (sac(FLOATS)[:-9], "damaged or cut SAC; give the whole file"),
+        (sac(FLOATS, 7), ".ABC.. has velocity; use a record of acceleration"),
+        (miniseed(COUNTS)[:500], "damaged or cut miniSEED; use the whole file"),
+        (miniseed(COUNTS) * 2 + b"000002D ABC", "damaged or cut miniSEED; use the whole file"),
+        (sac(FLOATS)[:-9], "damaged or cut SAC; use the whole file"),
         (miniseed(COUNTS) + miniseed(COUNTS, 5), "XX.ABC..HNE has 2 pieces with gaps or overlaps"),
     ],
 )  # fmt: skip
@@ -137,10 +137,10 @@ def test_what_is_no_whole_record_of_acceleration_is_refused(file, content, probl
 @pytest.mark.parametrize(
     ("old", "new", "problem"),
     [
-        ("M/S**2", "M/S", "the sensitivity of XX.ABC..HNE is 213740 COUNTS per 'M/S'; give that"),
-        ("COUNTS", "V", "the sensitivity of XX.ABC..HNE is 213740 V per 'M/S**2'; give that"),
-        ("HNE", "HNZ", "has no sensitivity of XX.ABC..HNE at 2024-01-02T00:00:00.000000Z; give"),
-        ("FDSNStationXML", "a", "cannot be read as a response; give StationXML, or counts per"),
+        ("M/S**2", "M/S", "the sensitivity of XX.ABC..HNE is 213740 COUNTS per 'M/S'; enter that"),
+        ("COUNTS", "V", "the sensitivity of XX.ABC..HNE is 213740 V per 'M/S**2'; enter that"),
+        ("HNE", "HNZ", "has no sensitivity of XX.ABC..HNE at 2024-01-02T00:00:00.000000Z; enter"),
+        ("FDSNStationXML", "a", "cannot be read as a response; use StationXML, or counts per"),
     ],
 )  # fmt: skip
 def test_another_response_is_refused(file, old, new, problem):

@@ -274,7 +274,7 @@ def test_components_keep_one_length_and_others_are_named(noise):
     assert [part.name for part in processed] == ["r1", "r2", "r3"]
     assert np.array_equal(processed[0].a_mps2, process(parts[0], settings).a_mps2)
     parts = [record(noise, name="x"), record(noise[1:], name="y"), record(noise, 0.02, "z")]
-    like_x = "but x has 2000 of 0.01 s; give components of one length and step"
+    like_x = "but x has 2000 of 0.01 s; use components of one length and step"
     assert input_problems(process_together, parts, Processing()) == (
         f"y: 1999 samples of 0.01 s, {like_x}",
         f"z: 2000 samples of 0.02 s, {like_x}",
@@ -301,14 +301,14 @@ def test_words_say_everything_that_is_done_and_problems_at_once():
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({"from_s": -1.0}, "r: cut from -1 s to inf s; give two times"),
-        ({"from_s": 20.0}, "leaves 0 samples of a record of 19.99 s; give a longer part"),
-        ({"baseline": 9}, "degree of the baseline is 9; give 0 (mean) to 8, or -1 for none"),
-        ({"highpass_hz": 50.0}, "high-pass corner is 50 Hz; give less than 50 Hz, half"),
-        ({"highpass_hz": 5.0, "lowpass_hz": 2.0}, "give a low-pass above the high-pass"),
-        ({"highpass_hz": 0.1, "order": 1}, "filter order is 1; give 2 to 12"),
-        ({"dt_s": 30.0}, "new time step is 30 s; give less than the 19.99 s of the record"),
-        ({"pad_s": 1e9}, "gives 1e+11 samples; give a larger step, higher corners or fewer"),
+        ({"from_s": -1.0}, "r: cut from -1 s to inf s; enter two times"),
+        ({"from_s": 20.0}, "leaves 0 samples of a record of 19.99 s; use a longer part"),
+        ({"baseline": 9}, "degree of the baseline is 9; enter 0 (mean) to 8, or -1 for none"),
+        ({"highpass_hz": 50.0}, "high-pass corner is 50 Hz; enter less than 50 Hz, half"),
+        ({"highpass_hz": 5.0, "lowpass_hz": 2.0}, "enter a low-pass above the high-pass"),
+        ({"highpass_hz": 0.1, "order": 1}, "filter order is 1; enter 2 to 12"),
+        ({"dt_s": 30.0}, "new time step is 30 s; enter less than the 19.99 s of the record"),
+        ({"pad_s": 1e9}, "gives 1e+11 samples; use a larger step, higher corners or fewer"),
     ],
 )  # fmt: skip
 def test_what_makes_no_sense_is_said(noise, settings, message):

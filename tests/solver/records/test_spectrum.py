@@ -39,7 +39,7 @@ class TestPastedValues:
             "Motions!D: value 7 is 1000000000000000000000000000...0",
         ]
         (problem,) = input_problems(record_from_values, "M1", [1.0], units="g", dt_s=0.01)
-        assert "give at least 2 values" in problem
+        assert "enter at least 2 values" in problem
         pasted = record_from_values("M1", np.array([1.0, 2.5]), units="g", dt_s=0.5)
         filed = read_record(file("0,1\n0.5,2.5\n"), units="g")
         assert pasted.dt_s == filed.dt_s
@@ -167,13 +167,13 @@ class TestSpectrum:
     @pytest.mark.parametrize(
         ("how", "expected"),
         [
-            ({"a_mps2": [1.0, math.nan]}, "acceleration: give one column of finite numbers"),
-            ({"a_mps2": [[1.0, 2.0]]}, "acceleration: give one column"),
-            ({"a_mps2": []}, "acceleration: give one column"),
-            ({"dt_s": 0.0}, "time step dt is 0.0; give a number of seconds above 0"),
-            ({"periods_s": [-1.0]}, "periods: give one column of numbers of seconds, 0 or above"),
-            ({"periods_s": [math.nan]}, "periods: give one column"),
-            ({"damping": 1.0}, "damping is 1.0; give a fraction from 0 to below 1"),
+            ({"a_mps2": [1.0, math.nan]}, "acceleration: enter one column of finite numbers"),
+            ({"a_mps2": [[1.0, 2.0]]}, "acceleration: enter one column"),
+            ({"a_mps2": []}, "acceleration: enter one column"),
+            ({"dt_s": 0.0}, "time step dt is 0.0; enter a number of seconds above 0"),
+            ({"periods_s": [-1.0]}, "periods: enter one column of numbers of seconds, 0 or above"),
+            ({"periods_s": [math.nan]}, "periods: enter one column"),
+            ({"damping": 1.0}, "damping is 1.0; enter a fraction from 0 to below 1"),
         ],
     )
     @pytest.mark.quick
@@ -215,7 +215,7 @@ class TestFactor:
 
     @pytest.mark.parametrize("range_s", [(0.0, 1.0), (1.0, 1.0), (2.0, 1.0), (math.nan, 1.0)])
     def test_a_range_that_is_none_is_refused(self, noise, range_s):
-        with pytest.raises(InputError, match="give two periods above 0, the second longer"):
+        with pytest.raises(InputError, match="enter two periods above 0, the second longer"):
             factor_to_target([record(noise)], LEVEL, range_s)
 
 
@@ -246,12 +246,12 @@ class TestDesignSpectrum:
             assert below == pytest.approx(above, rel=1e-8)
         problems = input_problems(design_spectrum, s_ds_g=0.0, s_d1_g=-1.0, t_l_s=math.nan)
         assert problems == (
-            "S_DS is 0 g; give a number above 0",
-            "S_D1 is -1 g; give a number above 0",
-            "T_L is nan s; give a number above 0",
+            "S_DS is 0 g; enter a number above 0",
+            "S_D1 is -1 g; enter a number above 0",
+            "T_L is nan s; enter a number above 0",
         )
         (problem,) = input_problems(design_spectrum, s_ds_g=1.2, s_d1_g=0.6, t_l_s=0.4)
-        assert "T_L is 0.4 s; give more than T_S = 0.5 s" in problem
+        assert "T_L is 0.4 s; enter more than T_S = 0.5 s" in problem
 
 
 PERIODS = [0.0, 0.3, 1.0]
@@ -275,5 +275,5 @@ def test_spectra_have_names_periods_and_scaled_components(noise):
     assert repr(found) == f"ResponseSpectrum: 3 periods, 5 %; {told}"
     found = solver.spectrum(Record(name="a", dt_s=0.01, a_mps2=noise[:200]))
     assert found.periods_s.tolist() == PERIODS_S.tolist()
-    with pytest.raises(InputError, match="periods: give one column"):
+    with pytest.raises(InputError, match="periods: enter one column"):
         solver.spectrum(Record(name="a", dt_s=0.01, a_mps2=noise), [-1.0])

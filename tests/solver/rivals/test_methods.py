@@ -362,10 +362,10 @@ def test_vertical_shaking_is_taken_or_refused_as_the_method_says(noise, name):
     [
         ("exact", {"substeps": 4}, "'exact' has no parameter 'substeps'; it has none"),
         ("penalty-explicit", {"stiffness": 1e4}, "'stiffness'; it has stiffness_per_m, substeps"),
-        ("linear", {"substeps": 1.5}, "substeps is 1.5; give a whole number of 1 or more"),
-        ("linear", {"substeps": "8"}, "substeps is '8'; give a whole number"),
-        ("penalty-implicit", {"stiffness_per_m": 0.0}, "stiffness_per_m is 0.0; give a finite"),
-        ("regularized", {"tolerance": 1.0}, "tolerance is 1.0; give a number from 1e-13 to 0.1"),
+        ("linear", {"substeps": 1.5}, "substeps is 1.5; use a whole number of 1 or more"),
+        ("linear", {"substeps": "8"}, "substeps is '8'; use a whole number"),
+        ("penalty-implicit", {"stiffness_per_m": 0.0}, "stiffness_per_m is 0.0; use a finite"),
+        ("regularized", {"tolerance": 1.0}, "tolerance is 1.0; use a number from 1e-13 to 0.1"),
     ],
 )
 def test_parameters_at_fault_raise_the_input_error(name, parameters, message):

@@ -277,11 +277,11 @@ def test_an_override_keeps_its_reason_and_its_range_has_the_numbers_of_the_codes
 @pytest.mark.parametrize(
     ("key", "value", "words"),
     [
-        ("analysis_factor", -1.0, "analysis_factor is -1.0; give a number from 1 to 10"),
-        ("analysis_floor", 1.01, "analysis_floor is 1.01; give a number from 0 to 1"),
-        ("analysis_factor", float("nan"), "analysis_factor is nan; give a number from 1 to 10"),
-        ("max_stories", 6.5, "max_stories is 6.5; give a whole number from 1 to 200"),
-        ("separation_edge", 10**400, "; give a number from 0.1 to 10"),
+        ("analysis_factor", -1.0, "analysis_factor is -1.0; enter a number from 1 to 10"),
+        ("analysis_floor", 1.01, "analysis_floor is 1.01; enter a number from 0 to 1"),
+        ("analysis_factor", float("nan"), "analysis_factor is nan; enter a number from 1 to 10"),
+        ("max_stories", 6.5, "max_stories is 6.5; enter a whole number from 1 to 200"),
+        ("separation_edge", 10**400, "; enter a number from 0.1 to 10"),
     ],
 )
 def test_an_override_outside_of_its_range_is_refused(key, value, words):

@@ -72,7 +72,7 @@ def test_what_is_no_number_is_refused(name, given):
 @pytest.mark.parametrize("across", [None, RECORD])
 def test_what_is_no_name_of_a_method_is_refused(given, across):
     for run in (solver.slide, solver.slide_history):
-        with pytest.raises(InputError, match=r"method is .*; give one of exact, ") as caught:
+        with pytest.raises(InputError, match=r"method is .*; use one of exact, ") as caught:
             run(RECORD, 0.01, slope_rad=0.0, mu=0.5, ay_mps2=across, method=given)
         assert len(caught.value.problems) == 1
 
@@ -178,7 +178,7 @@ def test_a_motion_has_its_names_polarities_and_checked_lengths(components):
     assert solver.motion(one_way, scale=0.5).signs == (1,)
     assert solver.motion(one_way, signs=(1, -1)).signs == (1, -1)
     x, y, _ = components
-    with pytest.raises(InputError, match="give the shape of ax_mps2"):
+    with pytest.raises(InputError, match="use the shape of ax_mps2"):
         solver.motion(x, replace(y, a_mps2=y.a_mps2[:-1]))
     for signs in ((), (2,)):
         with pytest.raises(InputError, match="signs is"):
@@ -213,7 +213,7 @@ def test_an_own_method_is_run_beside_the_eight_without_an_error(components):
     assert math.isnan(result.error_m)
     half = solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor=1.0)
     assert half.prd_m == 0.5 * result.prd_m
-    with pytest.raises(InputError, match="factor is 'x'; give a finite number"):
+    with pytest.raises(InputError, match="factor is 'x'; use a finite number"):
         solver.slide(components[0], slope_rad=0.0, mu=0.3, method=mine, factor="x")
     mine = replace(METHODS["frozen-normal"], name="exact")
     history = solver.slide_history(components[0], **SCENE, method=mine)
@@ -246,10 +246,10 @@ def test_units_are_known_and_too_weak_shaking_is_asked_about():
     said = "units are given beside a record or a motion, which is in m/s2; omit them"
     with pytest.raises(solver.InputError, match=said):
         solver.slide(record, slope_rad=0.0, mu=0.2, units="g")
-    with pytest.raises(solver.InputError, match=r"units is 'ft/s2'; give one of g, m/s2, cm/s2"):
+    with pytest.raises(solver.InputError, match=r"units is 'ft/s2'; use one of g, m/s2, cm/s2"):
         solver.slide(PULSE, 0.1, slope_rad=0.0, mu=0.2, units="ft/s2")
     weak = [0.2 * a for a in PULSE_G]  # 0.08 where 3.9 m/s2 slips
-    with pytest.warns(UserWarning, match=r"reach 0.08 m/s2, and 3.92 m/s2 slips: give units='g'"):
+    with pytest.warns(UserWarning, match=r"reach 0.08 m/s2, and 3.92 m/s2 slips: use units='g'"):
         solver.slide(weak, 0.1, slope_rad=0.0, mu=0.4)
     # Said to be so, or of a record, it is not; nor is shaking that may slip something.
     solver.slide(weak, 0.1, slope_rad=0.0, mu=0.4, units="m/s2")
@@ -284,10 +284,10 @@ def test_the_index_of_a_series_is_its_time_and_its_name_may_have_the_unit(name, 
 @pytest.mark.parametrize(
     ("name", "index", "how", "problem"),
     [
-        ("x", TIMES_S, {}, "ax_mps2 is a Series without a unit; give units, or a name such as"),
-        ("a_g", [*TIMES_S[:5], 0.6], {}, "ax_mps2 has an uneven index; give times at one step"),
+        ("x", TIMES_S, {}, "ax_mps2 is a Series without a unit; use units, or a name such as"),
+        ("a_g", [*TIMES_S[:5], 0.6], {}, "ax_mps2 has an uneven index; use times at one step"),
         ("a_g", TIMES_S, {"dt_s": 0.1}, "dt_s is given beside a record or a motion, which has"),
-        ("a_g", range(6), {}, "dt_s is None; give a number of seconds above 0"),
+        ("a_g", range(6), {}, "dt_s is None; use a number of seconds above 0"),
         ("a_g", TIMES_S, {"ay_mps2": PULSE_G}, "some components are Series, in other units than"),
     ],
 )

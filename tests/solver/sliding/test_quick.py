@@ -65,13 +65,13 @@ def test_a_record_that_was_read_cannot_be_written_to(record):
 @pytest.mark.parametrize(
     ("changed", "message"),
     [
-        ({"mu": -0.1}, "mu is -0.1; give a friction coefficient of 0 or more"),
+        ({"mu": -0.1}, "mu is -0.1; use a friction coefficient of 0 or more"),
         ({"mu": math.nan}, "mu is nan"),
         ({"mu": "0.4"}, "mu is '0.4'"),
         ({"mu": True}, "mu is True"),
-        ({"slope_rad": 1.6}, "slope_rad is 1.6; give an angle between -pi/2 and pi/2"),
-        ({"scale": math.inf}, "scale is inf; give a finite factor"),
-        ({"g_mps2": 0.0}, "g_mps2 is 0.0; give a number of m/s2 above 0"),
+        ({"slope_rad": 1.6}, "slope_rad is 1.6; use an angle between -pi/2 and pi/2"),
+        ({"scale": math.inf}, "scale is inf; use a finite factor"),
+        ({"g_mps2": 0.0}, "g_mps2 is 0.0; use a number of m/s2 above 0"),
         ({"scale": 1e200}, "exceed the floating-point range"),
     ],
 )
@@ -83,7 +83,7 @@ def test_what_is_not_plain_is_refused_with_the_words_of_the_checks(record, chang
 def test_samples_that_are_not_finite_are_named(record):
     a = np.array(record.a_mps2)
     a[7] = math.nan
-    with pytest.raises(InputError, match=r"ax_mps2\[7\] is nan; give finite accelerations"):
+    with pytest.raises(InputError, match=r"ax_mps2\[7\] is nan; use finite accelerations"):
         solver.slide(replace(record, a_mps2=a), slope_rad=0.02, mu=0.4)
 
 

@@ -56,4 +56,4 @@ def test_faults_of_the_axes_and_of_records_are_named_together(records):
     with pytest.raises(InputError) as caught:
         solver.sweep_all([records[0], [1.0, 2.0]], slopes_rad=[2.0], mus=[0.4], scales=[1.0])
     assert "slopes_rad has 2.0" in str(caught.value)
-    assert "record 2 is [1.0, 2.0]; give records or motions" in str(caught.value)
+    assert "record 2 is [1.0, 2.0]; use records or motions" in str(caught.value)

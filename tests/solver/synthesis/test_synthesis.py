@@ -172,7 +172,7 @@ class TestMaking:
             make_suite(HORIZONTAL, VERTICAL, count=50, seed=1)
         assert len(begun) < 50
         for wrong in ({"count": 0, "seed": 1}, {"count": 1, "seed": -1}):
-            with pytest.raises(InputError, match="give at least 1 and at least 0"):
+            with pytest.raises(InputError, match="use at least 1 and at least 0"):
                 make_suite(HORIZONTAL, VERTICAL, **wrong)
 
 
@@ -211,10 +211,10 @@ class TestSynthesis:
         ("how", "expected"),
         [
             ({"target": ([1.0, 2.0], [1.0, 1.0, 1.0])}, "as many accelerations as frequencies"),
-            ({"target": ([2.0, 1.0], [1.0, 1.0])}, "give increasing frequencies above 0"),
-            ({"target": ([1.0, 2.0], [1.0, np.nan])}, "give accelerations above 0"),
-            ({"dt_s": 0.02}, "time step dt is 0.02; give 0.001 to 0.01 s"),
-            ({"duration_s": 5.0}, "duration is 5.0; give from 10 s to 60,000 time steps"),
+            ({"target": ([2.0, 1.0], [1.0, 1.0])}, "use increasing frequencies above 0"),
+            ({"target": ([1.0, 2.0], [1.0, np.nan])}, "use accelerations above 0"),
+            ({"dt_s": 0.02}, "time step dt is 0.02; use 0.001 to 0.01 s"),
+            ({"duration_s": 5.0}, "duration is 5.0; use from 10 s to 60,000 time steps"),
         ],
     )
     @pytest.mark.quick
@@ -345,10 +345,10 @@ def test_long_and_short_records_are_used_at_the_motions_step():
 @pytest.mark.parametrize(
     ("groups", "expected"),
     [
-        ([()], "records of motion 1: found 0; give one, two or three"),
-        ([("rest",) * 4], "records of motion 1: found 4; give one, two or three"),
-        ([("rest",)], "rest: is constant; give another record as a seed"),
-        ([("short",)], "short: lasts 4.99 s; give a seed of at least 5 s"),
+        ([()], "records of motion 1: found 0; use one, two or three"),
+        ([("rest",) * 4], "records of motion 1: found 4; use one, two or three"),
+        ([("rest",)], "rest: is constant; use another record as a seed"),
+        ([("short",)], "short: lasts 4.99 s; use a seed of at least 5 s"),
     ],
 )
 @pytest.mark.quick
