@@ -127,7 +127,7 @@ export function mountValues(element, api, results, moved) {
   }
 
   const back = html("button", { type: "button", class: "button", on: { click: () => { for (const { reset } of sliders) reset(); compute(); } } }, "As in the package");
-  replace(element, html("div", { class: "sliders" }, sliders.map(({ field }) => field), back), state, html("div", { class: "halves" }, tables.map((table) => html("div", { class: "whole" }, table))));
+  replace(element, html("div", { class: "sliders" }, sliders.map(({ field }) => field), back), state, html("div", { class: "halves" }, tables.map((shown) => html("div", { class: "whole" }, shown))));
   if (free.arrays.length < results.arrays.length) element.append(note("Left out, with the clearances beside them: arrays by the prescriptive procedure, without a floor, or with friction that falls with velocity."));
   compute();
   return true;

@@ -45,17 +45,20 @@ export function showTables(drawn) {
   return showFields(drawn, "Edit the workbook", EDIT);
 }
 
+let typed = {}; // by cell, since the fields were drawn
+part("problems").addEventListener("change", ({ target }) => {
+  typed[target.dataset.at] = target.value;
+});
+
 // Errors and tables with their fields; returns what is typed into these, by cell.
 function showFields({ problems = "", fields }, title, advice) {
-  const [element, typed] = [part("problems"), {}];
+  const element = part("problems");
   const [heading, paragraph] = ["h2", "p"].map((name) => element.querySelector(name));
   heading.textContent = title;
   paragraph.textContent = advice;
   replace(element.querySelector(".problems"), ...parsed("table", problems).childNodes);
   replace(element.querySelector(".fields"), ...parsed("div", fields).childNodes);
-  element.onchange = ({ target }) => {
-    typed[target.dataset.at] = target.value;
-  };
+  typed = {};
   element.hidden = false;
   heading.focus();
   return typed;

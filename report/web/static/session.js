@@ -70,12 +70,10 @@ function createRuns(state, set, assess, fail) {
       const answer = await assess(moving, values, whole);
       if (!answer || !isWanted()) return;
       isFull = !moving;
-      const phase = moving ? provisional(isMoving) : "rest";
-      set({ phase, answer: { ...answer, values }, shows: moving ? "provisional" : "final", failure: null });
+      set({ ...answered(answer, values), ...(moving && { phase: isMoving ? "moving" : "settling", shows: "provisional" }) });
       if (answer.pending && !isHeld) await ask(false, true);
     } catch (error) {
-      // The values are refused with their problems, or the server did not answer; of provisional ones the
-      // full answer tells, which is asked next.
+      // Values are refused with their problems. Any other fault of a provisional answer is left to the full one.
       const isRefused = error.problems?.length > 0;
       if (!isWanted() || (moving && !isRefused)) return;
       set({ phase: "failed", shows: "former", failure: error });
@@ -86,14 +84,12 @@ function createRuns(state, set, assess, fail) {
   const askMoving = createLane(async () => isFull || ask(true), GAP_MS);
   const askFull = createLane(async () => isMoving || ask(false, isFull));
 
-  // The answer stays beside other values, without its verdict.
   function change(values, moves) {
     clearTimeout(timer);
     version += 1;
     isMoving = moves;
     isFull = false;
-    const former = state.answer?.verdict ? { answer: { ...state.answer, verdict: null }, shows: "former" } : {};
-    set({ values: present(values), phase: moves ? "moving" : "settling", turned: {}, ...former });
+    set({ values: present(values), phase: moves ? "moving" : "settling", turned: {}, ...former(state.answer) });
   }
 
   function rest() {
@@ -124,17 +120,17 @@ function createRuns(state, set, assess, fail) {
       isHeld = false;
       change(all, false);
       const { project, values } = state;
-      if (!project?.answer || !isSame(values, typedOf(project))) {
-        askFull();
-        return;
-      }
-      isFull = true;
-      set({ phase: "rest", shows: "final", failure: null, answer: { ...project.answer, values } });
+      isFull = Boolean(project?.answer) && isSame(values, typedOf(project));
+      if (isFull) set(answered(project.answer, values));
+      else askFull();
     },
   };
 }
 
-const provisional = (isMoving) => (isMoving ? "moving" : "settling");
+const answered = (answer, values) => ({ phase: "rest", shows: "final", failure: null, answer: { ...answer, values } });
+
+// The answer stays beside other values, without its verdict.
+const former = (answer) => (answer?.verdict ? { answer: { ...answer, verdict: null }, shows: "former" } : {});
 
 // A value of null is none: that of all arrays, or of the workbook, is meant.
 function present(values) {
