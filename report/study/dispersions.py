@@ -40,7 +40,7 @@ def dispersions(
         _entered(study.modeling_beta),
         _entered(study.quality_beta),
         _of_effect(state, FRICTION, f"mat {plan.array.mat} has no tests", tests),
-        _of_effect(state, SLOPE, "no tolerance is given", tolerance),
+        _of_effect(state, SLOPE, "no tolerance is entered", tolerance),
     )
     return tuple(
         Dispersion(name=name, source=source, beta=beta)

@@ -16,6 +16,7 @@ from report.assessment.design.tested_friction import (
     is_complete,
     runs_by_velocity,
     tested,
+    velocity_check,
 )
 from report.assessment.design.verdict import NOT_GIVEN
 from report.project.model import ProjectInput
@@ -118,9 +119,6 @@ def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterat
 
 def of_velocities(data: ProjectInput, arrays: Sequence[ArrayAssessment]) -> Iterator[Check]:
     """Yield for each array whether friction beyond the velocities tested is shown by tests."""
-    # What knows of runs loads the compiler: the other checks here do without.
-    from report.assessment.design.tested_friction import velocity_check
-
     for item in arrays:
         yield _velocity(item.id, velocity_check(data, item), data.us_first)
 

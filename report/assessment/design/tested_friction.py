@@ -13,8 +13,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain
+from typing import TYPE_CHECKING
 
-from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.verdict import NOT_GIVEN
 from report.project.check.array_faults import MU_TOLERANCE
 from report.project.model import ProjectInput
@@ -24,6 +24,9 @@ from report.text.grouping import grouped_by
 from report.text.units import Quantity, Rounding, measured, pair
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction
+
+if TYPE_CHECKING:  # the class loads the kernels, which `check` does without: 0.4 s
+    from report.assessment.design.arrays import ArrayAssessment
 
 # PV1-2012: the kinetic average of three runs, of the worse of wet and dry.
 LEAST_RUNS = 3

@@ -325,7 +325,7 @@ def test_in_the_charts_of_a_study(drawn):
     design = 0.05 * (1.0 + slopes[:, None]) * levels**3
     family = [(f"{slope:g}°", design[k]) for k, slope in enumerate(slopes)]
     family[-1] = family[-1][0], np.full_like(levels, math.nan)
-    study.curves(levels, family, inch, along="PPA [g]", low=0.8, beside=list(design / 1.1))
+    study.curves(levels, family, inch, along="PPA [g]", low=0.8, members=list(design / 1.1))
     study.contours(
         levels, slopes, design, design / 1.1, inch, along="PPA [g]", allowed_m=24 * inch.si
     )

@@ -189,7 +189,7 @@ def test_records_are_cut_to_the_shortest_and_turned_to_one_direction_and_a_lost_
 @pytest.mark.quick
 def test_the_command_names_a_folder_without_records_and_exits_2(tmp_path):
     told = commands.errors_of("verify", "--records", tmp_path, "--out", tmp_path / "out")
-    assert "no subfolder roof_575_market; enter a folder that contains it" in told
+    assert "no subfolder roof_575_market; use a folder that contains it" in told
     assert not (tmp_path / "out").exists()
 
 

@@ -149,7 +149,7 @@ def test_each_document_of_the_example_says_that_it_is_one_and_has_the_values_of_
     folder, site = PROJECTS / "example", given.project.site
     texts = {
         document.label: PdfReader(folder / document.path).pages[0].extract_text()
-        for document in given.sheet.documents
+        for document in given.source.documents
     }
     assert set(texts) == {
         "Printout of seismic parameters",

@@ -39,7 +39,7 @@ def test_json_has_the_assessment_in_si_with_models_and_peaks(document):
     assert document["s_ds_g"] == 1.566
     array, item = document["arrays"][2], assessment.arrays[2]
     for direction in Direction:
-        peaks = [motion[f"{direction}_m"] for motion in array["peaks"]]
+        peaks = [motion[f"{direction.name.lower()}_m"] for motion in array["peaks"]]
         assert peaks == [motion.peak_m(direction) for motion in item.motions]
     found, solution = array["runs"][0], item.motions[0].runs[0].solution
     assert (found["rung"], found["model"]) == (3, "two axes with vertical")

@@ -153,7 +153,7 @@ def test_no_control_moves_with_the_verdict_and_the_plan_is_on_the_first_screen(p
 def test_the_plan_tells_what_is_under_the_pointer_selects_with_the_table_and_zooms(page):
     said = page.locator("#plan-said")
     page.hover("#plan-drawing [data-key='#5']")
-    assert said.inner_text().startswith("Clearance 5, A3 to PV-OLD, up: provided 72.0 in (")
+    assert said.inner_text().startswith("Clearance 5, A3 to PV-OLD, upslope: provided 72.0 in (")
     assert said.inner_text().endswith(", D/C 0.66")
     page.hover("#plan-drawing [data-key=A3]")
     assert re.fullmatch(r"A3: Δ 47.4 in .*, D/C 0.79 to RTU-2", said.inner_text())

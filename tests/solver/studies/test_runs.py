@@ -205,7 +205,7 @@ def test_what_is_no_study_is_refused(motions):
     with pytest.raises(InputError, match="two motions have one name"):
         solver.study([motions[0], motions[0]], slopes_rad=[0.0], mus=[0.3])
     for wrong in ({"mus": [0.3, 0.2]}, {"mus": [0.0, 0.2]}, {"slopes_rad": [2.0]}):
-        with pytest.raises(InputError, match="give"):
+        with pytest.raises(InputError, match=r"[:;] use"):
             solver.study(motions, **({"slopes_rad": [0.0], "mus": [0.3]} | wrong))
 
 
