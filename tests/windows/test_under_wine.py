@@ -57,7 +57,7 @@ def test_a_package_of_windows_is_that_of_linux(windows, project, tmp_path_factor
     pages = [len(PdfReader(out / "calc-package.pdf").pages) for out in (project / "out", here)]
     assert pages[0] == pages[1]
     told = output_of("verify-package", project / "out" / "calc-package.pdf", exit_code=4)
-    assert "nothing differs in what was compared" in told
+    assert "no differences in what was compared" in told
     assert "system Windows" in told
 
 
@@ -100,7 +100,7 @@ def test_a_save_is_followed_by_a_report(windows, project, tmp_path_factory):
         too_late.start()
         assert _until(watching, "watching ")
         os.utime(project / "input.xlsx")
-        assert _until(watching, "changes since the round before: 0")
+        assert _until(watching, "changes since the last report: 0")
         too_late.cancel()
         watching.kill()
     outs = (project / "out", reported(tmp_path_factory, "example").out)
