@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 from report.drawing.dimensions import draw_ng
@@ -22,11 +23,11 @@ _MEANINGS: dict[Look, str] = {
     Layer.BARE_EDGE: "roof edge, not an object",
     Layer.DESIGN: "array displaced by Δ",
     Layer.RUNS: "array in all runs",
-    Mark.NUMBER: "clearance, numbered",
+    Mark.NUMBER: "clearance No.",
     Layer.CLEARANCE_NG: "clearance not satisfied",
 }
 _LINES = (Layer.PARAPET, Layer.EDGE, Layer.BARE_EDGE)
-_SAMPLE_IN = 0.26
+_SAMPLE_IN, _GAP_IN = 0.26, 0.16
 _HEAD_IN, _ROW_IN = 1.86, LINE_IN + 0.025  # width of north and the scale bar; of a symbol
 
 
@@ -35,7 +36,7 @@ def key_on_paper(plan: PlanSheet) -> Paper:
     # What is on the plan; the samples come after it.
     drawn = {item.look for item in plan.paper.items if hasattr(item, "look")}
     symbols = [look for look in _MEANINGS if look in drawn]
-    rows = max(3, math.ceil(len(symbols) / 3))
+    rows = _rows(symbols, plan.size.wide)
     frame = Frame(0.0, 0.0, plan.size.wide, rows * _ROW_IN)
     key = replace(plan.paper, tall=frame.tall, placer=Placer(frame), items=[])
     draw_key(plan, frame, key)
@@ -46,8 +47,23 @@ def key_on_paper(plan: PlanSheet) -> Paper:
             y = frame.tall - (count + 0.5) * _ROW_IN
             _sample(key, look, centered(x + _SAMPLE_IN / 2, y, _SAMPLE_IN, 0.11))
             key.text(x + _SAMPLE_IN + 0.06, y - BASE_IN, _MEANINGS[look])
-        x += max(width_in(_MEANINGS[look]) for look in column) + _SAMPLE_IN + 0.16
+        x += _column_in(column)
     return key
+
+
+def _rows(symbols: Sequence[Look], wide_in: float) -> int:
+    """Return the fewest rows, three or more, whose columns are as wide as the plan or less."""
+    rows = 3
+    while rows < len(symbols):
+        columns = (symbols[start : start + rows] for start in range(0, len(symbols), rows))
+        if _HEAD_IN + sum(map(_column_in, columns)) - _GAP_IN <= wide_in:
+            break
+        rows += 1
+    return rows
+
+
+def _column_in(column: Sequence[Look]) -> float:
+    return max(width_in(_MEANINGS[look]) for look in column) + _SAMPLE_IN + _GAP_IN
 
 
 def draw_key(plan: PlanSheet, frame: Frame, paper: Paper) -> None:

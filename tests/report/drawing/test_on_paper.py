@@ -120,6 +120,13 @@ def test_no_leader_crosses_an_array_or_a_label(done):
     assert [row[0] for row in scheduled(page_of(done, "plan"))] == numbers(done)
 
 
+def test_the_legend_ends_within_the_sheet(done):
+    key = printed_plan(done).key
+    assert words_of(key)
+    for text in words_of(key):
+        assert area(text).bounds[2] <= key.wide, text.words
+
+
 def test_large_roofs_have_leaders_and_small_plans_sizes_and_numbers():
     assert all(leaders(printed_plan(PLANS[name]()).plan) for name in ("thirty", "example"))
     shown = [text.words for text in words_of(printed_plan(assessments.shipped("example")).plan)]
