@@ -49,12 +49,12 @@ def table() -> str:
     """Return what is counted as a table of Markdown."""
     core, beside = counted()
     rows = [
-        "| folder of the core, or extra | lines |",
+        "| core folder, or extra | lines |",
         "|---|---:|",
         *(f"| `{folder}` | {lines:,} |" for folder, lines in sorted(core.items())),
-        f"| core, in all | **{core.total():,}** |",
+        f"| core, total | **{core.total():,}** |",
         *(f"| {name} | {lines:,} |" for name, lines in sorted(beside.items())),
-        f"| extras, in all | **{beside.total():,}** |",
+        f"| extras, total | **{beside.total():,}** |",
     ]
     return "\n".join(rows)
 

@@ -65,5 +65,5 @@ def test_the_core_is_counted_as_the_docs_print_it():
     printed = dict(re.findall(r"^\| (.+?) \| ([\d,]+) \|$", page, re.MULTILINE))
     folders, extras = core.counted()
     assert {f"`{folder}`" for folder in folders} | {*extras} <= printed.keys()
-    (whole,) = re.findall(r"^\| core, in all \| \*\*([\d,]+)\*\* \|$", page, re.MULTILINE)
+    (whole,) = re.findall(r"^\| core, total \| \*\*([\d,]+)\*\* \|$", page, re.MULTILINE)
     assert int(whole.replace(",", "")) == pytest.approx(folders.total(), rel=0.03)

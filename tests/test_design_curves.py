@@ -176,14 +176,15 @@ def test_the_page_states_the_scatter_of_all_runs_before_that_of_each_half(page, 
     assert "(1 − r)" in page[: places[0]]
     assert f"over all {about['every_run']['runs']:,} such runs" in page
     factor = np.exp(about["every_run"]["deviation"])
-    assert f"a factor of {factor:.2f} for 84%" in page
+    assert f"a factor of {factor:.2f} for the 84th percentile" in page
 
 
 def test_the_example_is_computed_with_the_numbers_that_are_printed(page, about):
     text = page.partition("Example: ")[2].partition("\n\n")[0].replace("\n", " ")
     (row,) = (row for row in about["peaks"] if row["period_s"] == 0.8)
     a_g, v_mps = round(row["ppa_per_s_ds"], 2), round(row["ppv_mps_per_s_ds_g"], 2)
-    assert f"S_DS = 1.0 g, a slope of 2°, μ = 0.5. A = {a_g:.2f} g, V = {v_mps:.2f} m/s" in text
+    assert "S_DS = 1.0 g, a slope of 2° and μ = 0.5. With" in text
+    assert f"A = {a_g:.2f} g, V = {v_mps:.2f} m/s" in text
     theta = np.radians(2.0)
     k = np.tan(np.arctan(0.5) - theta)
     r, length_m = k / a_g, v_mps**2 / (a_g * STANDARD_GRAVITY_MPS2)
@@ -191,8 +192,9 @@ def test_the_example_is_computed_with_the_numbers_that_are_printed(page, about):
     root = np.sqrt(theta / r)
     steep, ratchets = (1.0 - r) ** p, np.exp(s * root)
     prd_m = c * length_m * steep * ratchets
-    assert f"V² / A = {length_m:.3f} m, k = {k:.3f}, r = {r:.3f}, √(θ / r) = {root:.3f}" in text
-    assert f"PRD = {c} × {length_m:.3f} × {steep:.3f} × {ratchets:.2f} = {prd_m:.3f} m" in text
+    assert f"V² / A = {length_m:.3f} m, k = {k:.3f}, r = {r:.3f} and" in text
+    product = f"{c} × {length_m:.3f} × {steep:.3f} × {ratchets:.2f} = {prd_m:.3f} m"
+    assert f"√(θ / r) = {root:.3f}, the PRD is {product}" in text
     median_m = cases().loc[(0.8, 2.0, 0.5, 1.0), "median_m"]
     assert (
         f"({prd_m / make.INCH:.1f} in). The median of the runs is {median_m / make.INCH:.1f}"
@@ -207,11 +209,13 @@ def cases():
 def test_the_shares_over_the_prescriptive_displacement_are_those_of_the_table(page):
     share = 100.0 * cases()["share_over_prescriptive"]
     shown = {
-        at: " and ".join(f"{share.loc[(period, at[0], 0.5, at[1])]:.0f}" for period in (0.8, 1.5))
+        at: [f"{share.loc[(period, at[0], 0.5, at[1])]:.0f}%" for period in (0.8, 1.5)]
         for at in ((2.0, 1.0), (2.0, 1.6), (4.0, 1.0))
     }
-    assert f"μ = 0.5, a slope of 2° and S_DS = 1.0 g: {shown[2.0, 1.0]}%. At" in page
-    assert f"At 1.6 g it is {shown[2.0, 1.6]}%, and at 4° and 1.0 g {shown[4.0, 1.0]}%:" in page
+    short, long = shown[2.0, 1.0]
+    assert f"μ = 0.5, a slope of 2° and S_DS = 1.0 g ({short} for 0.8 s, {long} for 1.5 s)." in page
+    high, steep = (" and ".join(shown[at]) for at in ((2.0, 1.6), (4.0, 1.0)))
+    assert f"At 1.6 g the shares are {high}; at 4° and 1.0 g they are {steep}:" in page
 
 
 def test_no_value_of_the_tables_or_the_page_is_minus_zero(page):

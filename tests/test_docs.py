@@ -354,7 +354,7 @@ def test_the_answers_on_slopes_and_roofs_have_the_numbers_of_the_rules_and_curve
         assert said in page
     curves = DOCS[ROOT / "docs" / "design-curves.md"]
     rock, *roofs = map(float, re.findall(r"^\| (?:rock|roof, .*?) \| ([\d.]+) \|", curves, re.M))
-    said = f"{min(roofs) / rock:.1f} to {max(roofs) / rock:.1f} times in the median"
+    said = f"by a factor of {min(roofs) / rock:.1f} to {max(roofs) / rock:.1f} in the median"
     assert said in page
 
 

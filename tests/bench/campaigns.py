@@ -43,7 +43,7 @@ def hostile_inputs() -> int:
             for case in cases:
                 print(case, flush=True)
     figure("hostile inputs", INPUTS)
-    figure("neither read nor refused within 10 s", at_fault)
+    figure("neither read nor rejected within 10 s", at_fault)
     return at_fault
 
 

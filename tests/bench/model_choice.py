@@ -150,16 +150,16 @@ def choose() -> None:
         largest = max(largest, off / bound)
         count["wrong"] += off > bound + true.error_m + solution.result.error_m
         count["need"] += difference(lesser, true) > bound
-    figure("random scenes that slide", len(every))
-    figure("scenes in which the selected model neglects too much", count["wrong"])
-    figure("largest neglected part, relative to what may be neglected", largest)
-    figure("scenes that need two axes", 100.0 * count["need"] / len(every), "%", digits=3)
-    figure("scenes that get two axes", 100.0 * len(two) / len(every), "%", digits=3)
+    figure("random cases that slide", len(every))
+    figure("cases in which the selected model neglects too much", count["wrong"])
+    figure("largest neglected effect, relative to the tolerance", largest)
+    figure("cases that need two axes", 100.0 * count["need"] / len(every), "%", digits=3)
+    figure("cases run in two axes", 100.0 * len(two) / len(every), "%", digits=3)
     ratios = {name: cost(map(numbered, group)) for name, group in groups.items()}
-    for name, scenes in (("conditions", of_project("conditions")), ("turned", turned())):
+    for name, scenes in (("conditions", of_project("conditions")), ("rotated", turned())):
         ratios[f", {name}"] = cost(scenes)
     for name, ratio in ratios.items():
-        what = "time of selecting and running, relative to always two axes"
+        what = "time to select and run the model, relative to two axes for all"
         figure(what + name, ratio, digits=3)
 
 
@@ -192,7 +192,8 @@ def worst(scene: Scene, step_deg: int) -> float:
 
 def turn() -> None:
     """Print what directions that a package does not run would change."""
-    rows: dict[str, list[float]] = {f"every {STEP_DEG} degrees": [], "vertical reversed": []}
+    rotated = f"rotation in steps of {STEP_DEG} degrees"
+    rows: dict[str, list[float]] = {rotated: [], "the vertical component reversed": []}
     every, reversed_ = rows.values()
     for scene in turned():
         package = worst(scene, 90)
@@ -201,11 +202,11 @@ def turn() -> None:
             if scene.az_mps2.size:
                 backward = read_only(-scene.az_mps2)
                 reversed_.append(worst(replace(scene, az_mps2=backward), 90) / package)
-    kind = "recorded" if RECORDS else "made"
-    figure("motions that are turned", len(motions()), kind)
+    kind = "recorded" if RECORDS else "generated"
+    figure("motions that are rotated", len(motions()), kind)
     for what, ratios in rows.items():
         finite = [ratio for ratio in ratios if math.isfinite(ratio)]
-        name = f"PRD with {what}, relative to that of the package"
+        name = f"PRD with {what}, relative to the package"
         figure(f"{name}, median", float(np.median(finite)), digits=3)
         figure(f"{name}, largest", max(finite), digits=3)
 
@@ -215,11 +216,11 @@ def second_axis() -> None:
     triples = (*own_triples(quick=SMOKE), *(recorded_triples(RECORDS) if RECORDS else ()))
     changes = model_study.study(triples, quick=SMOKE).changes
     worst_heading = next(change for change in changes if change.name == WORST)
-    figure("motions of the manual, made and recorded", len(triples))
-    name = "PRD in two axes, relative to the largest of one axis"
+    figure("motions of the manual, generated and recorded", len(triples))
+    name = "PRD in two axes, relative to the largest one-axis PRD"
     figure(f"{name}, median", worst_heading.median, digits=3)
     for percent in (10, 90):
-        figure(f"{name}, {percent} % of the runs", worst_heading.at(percent), digits=3)
+        figure(f"{name}, {percent}th percentile of the runs", worst_heading.at(percent), digits=3)
 
 
 if __name__ == "__main__":

@@ -80,7 +80,7 @@ def tamperings(packages: dict[str, Path], given: Path) -> int:
         # What is drawn otherwise is not compared, and this is said.
         missed += code not in (1, 4)
         given.with_name("given-again.pdf").unlink(missing_ok=True)
-    figure("packages tampered with, each in another way", COUNT)
+    figure("packages tampered with, each in a different way", COUNT)
     figure("tampered packages that verify", missed)
     return missed
 

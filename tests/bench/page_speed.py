@@ -67,7 +67,7 @@ def in_the_browser() -> None:
     with chromium() as browser, served() as (address, _), quiet_page(browser) as page:
         opened(page, address)
         page.evaluate(WATCHING)
-        for name, is_let_go in (("a provisional", False), ("a full", True)):
+        for name, is_let_go in (("provisional", False), ("final", True)):
             every: list[tuple[float, str]] = []
             for slider, (first, step) in STEPS.items():
                 values = [round(first + step * move, 2) for move in range(1 + MOVES)]
@@ -76,10 +76,11 @@ def in_the_browser() -> None:
                 every += page.evaluate(MEASURED, [slider, values, is_let_go])[1:]
                 page.mouse.up()
                 page.wait_for_selector("body[data-phase=rest]")
-            printed(f"{name} answer drawn", [time_ms for time_ms, _ in every])
+            printed(f"{name} values drawn", [time_ms for time_ms, _ in every])
             if not is_let_go:
                 provisional = sum(values == "provisional" for _, values in every)
-                figure("moves whose first answer was provisional", provisional / len(every))
+                share = provisional / len(every)
+                figure("share of moves that first showed provisional values", share)
         by_pointer(page)
 
 
@@ -110,7 +111,7 @@ def by_pointer(page: Page) -> None:
         times.append(page.evaluate("window.drawn"))
     page.mouse.up()
     page.wait_for_selector("body[data-phase=rest]")
-    printed("a move of the pointer, first value drawn", times)
+    printed("first value drawn after a pointer movement", times)
 
 
 if __name__ == "__main__":

@@ -45,9 +45,9 @@ def stages() -> Iterator[str]:
     from report.assessment.assess import assess
 
     assessment = assess(sheet, shaking)
-    yield "the runs once more"
+    yield "repeat the runs"
     assess(sheet, shaking)
-    yield "spectra, histories, other friction, searches, every method"
+    yield "spectra, histories, sensitivity to friction, searches, comparison methods"
     from report.assessment.support.evidence import support
 
     evidence = support(assessment)
@@ -127,7 +127,7 @@ def main() -> None:
     """Measure the stages of the example, then the command over projects of several sizes."""
     laps = [json.loads(finished([sys.executable, __file__, "--stages"])[2]) for _ in range(REPEATS)]
     for name in laps[0]:
-        figure(f"stage of the example, {name}", statistics.median(t[name] for t in laps), "s")
+        figure(f"stage of the example: {name}", statistics.median(t[name] for t in laps), "s")
     for arrays, motions, length in SIZES:
         with tempfile.TemporaryDirectory() as top:
             folder = Path(top) / "job"

@@ -75,13 +75,18 @@ def write(rows: list[Row]) -> None:
         writer.writerows(sorted(rows, key=lambda row: row["script"]))
 
 
+def shown(row: Row) -> str:
+    """Return a value with its unit, a percentage without a space."""
+    return f"{row['value']} {row['unit']}".rstrip().replace(" %", "%")
+
+
 def with_figures(text: str, rows: list[Row]) -> str:
     """Return a document with its tables and quoted figures written anew."""
     values = {(row["script"], row["figure"]): row["value"] for row in rows}
 
     def table(found: re.Match[str]) -> str:
         own = [row for row in rows if row["script"] == found[2]]
-        lines = [f"| {row['figure']} | {row['value']} {row['unit']}".rstrip() + " |" for row in own]
+        lines = [f"| {row['figure']} | {shown(row)} |" for row in own]
         head = (
             f"| `{found[2]}` | {own[0]['date']}; {own[0]['machine']} |\n|---|---|\n" if own else ""
         )

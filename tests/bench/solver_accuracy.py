@@ -80,14 +80,14 @@ def two_axes() -> None:
             off = float(np.abs(np.subtract(outcome.places, exact.places)).max())
             errors.setdefault(tolerance, []).append(off / exact.prd)
             bounds.setdefault(tolerance, []).append(outcome.error_m / exact.prd)
-    kind = "recorded" if RECORDS else "made"
+    kind = "recorded" if RECORDS else "generated"
     figure("runs in two axes", len(errors[TOLERANCES[0]]), f"of {kind} motions")
     for tolerance in TOLERANCES:
         figure(f"largest error in two axes to {tolerance:.0e}", max(errors[tolerance]))
-        figure(f"largest stated bound in two axes to {tolerance:.0e}", max(bounds[tolerance]))
+        figure(f"largest reported bound in two axes to {tolerance:.0e}", max(bounds[tolerance]))
 
 
 if __name__ == "__main__":
-    one_axis("made", made())
+    one_axis("generated", made())
     one_axis("real", [(record.a_mps2, None, record.dt_s) for record in real_records()])
     two_axes()

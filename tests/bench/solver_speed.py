@@ -146,16 +146,14 @@ def runs(kind: str, records: Sequence[Record]) -> None:
         print(f"{record.name:32}", *(f"{each * 1e6:10.3g}" for each in times), flush=True)
         logs.append(np.log(times))
     exact, passed, fast, skipping, listed, call = np.exp(np.mean(logs, axis=0)).tolist()
-    figure(f"an exact run, {kind} records", exact * 1e6, "us")
-    figure(f"the same called from Python, with its checks, {kind} records", call * 1e6, "us")
-    figure(f"an exact run relative to one pass over its record, {kind} records", exact / passed)
+    figure(f"exact run, {kind} records", exact * 1e6, "us")
+    figure(f"the same called from Python, with argument checks, {kind} records", call * 1e6, "us")
+    figure(f"exact run, relative to one pass over its record, {kind} records", exact / passed)
     figure(
         f"the paper's algorithm, optimized, relative to an exact run, {kind} records", fast / exact
     )
-    figure(
-        f"the same with sub-steps in slip only, relative to it, {kind} records", skipping / exact
-    )
-    figure(f"the same as listed, relative to it, {kind} records", listed / exact)
+    figure(f"the same with sub-steps during slip only, {kind} records", skipping / exact)
+    figure(f"the same as the paper lists it, {kind} records", listed / exact)
 
 
 @njit
@@ -181,13 +179,13 @@ def nanoseconds(ax: Floats, sn: float, mu: float) -> float:
 def parts() -> None:
     """Print the cost of each part of an exact run, from scenes that differ in one thing alone."""
     short, long = (nanoseconds(np.zeros(n), 0.05, 0.4) for n in (2_000, 200_000))
-    figure("a sample at rest (blocks of samples are skipped)", (long - short) / 198_000, "ns")
+    figure("one sample at rest (blocks of samples are skipped)", (long - short) / 198_000, "ns")
     short, long = (nanoseconds(np.zeros(n), 0.2, 0.1) for n in (2_000, 20_000))
-    figure("a sample while sliding", (long - short) / 18_000, "ns")
+    figure("one sample while sliding", (long - short) / 18_000, "ns")
     noise = np.random.default_rng(1).normal(0.0, 6.0, 20_000)
     taken = nanoseconds(noise, 0.0, 0.5)
     _, stops = repeat(noise, one_axis.bounds(noise), 0.005, 0.0, 0.5, 1)
-    figure("a slip with its stop", taken / stops, "ns")
+    figure("one slip with its stop", taken / stops, "ns")
 
 
 def row(scene: Scene) -> object:
@@ -201,9 +199,9 @@ MODELS: dict[str, Model] = {
     "one axis with vertical": (one_axis_run.run, coulomb, False, True),
     "two axes with vertical, to 1e-6": (two_axes.run, coulomb, True, True),
     "the same to 1e-10": (partial(two_axes.run, tolerance=1e-10), coulomb, True, True),
-    "friction that depends on velocity": (two_axes.run, by_speed, True, True),
+    "velocity-dependent friction": (two_axes.run, by_speed, True, True),
     "row of five linked blocks": (row, coulomb, False, True),
-    "selection of the model and run": (model_selection.solve, coulomb, True, True),
+    "model selection and run": (model_selection.solve, coulomb, True, True),
 }
 
 
@@ -215,14 +213,14 @@ def models() -> None:
         scenes = [scene_of(triple, c, law(c.mu), second=second, vertical=vertical) for c in CASES]
         times.append([partial(run, scene) for scene in scenes[: 2 if SMOKE else None]])
     taken = [statistics.median(seconds(*calls, repeats=REPEATS)) for calls in times]
-    figure("samples of the motion by which models are compared", triple.ax_mps2.size)
+    figure("samples of the motion used to compare the models", triple.ax_mps2.size)
     figure("one axis, median of 24 cases", taken[0] * 1e3, "ms")
     for name, one in zip([*MODELS][1:], taken[1:], strict=True):
         figure(f"{name}, relative to one axis", one / taken[0], "times")
 
 
 if __name__ == "__main__":
-    runs("made", [read_record(path, units="g") for path in made_records()])
+    runs("generated", [read_record(path, units="g") for path in made_records()])
     runs("real", real_records())
     parts()
     models()

@@ -100,8 +100,8 @@ def queries(folder: Path) -> None:
         return frame.groupby(["slope_deg", "intensity"])["prd_m"].mean()
 
     by_duckdb = seconds(lambda: duckdb.sql(sql).fetchall())
-    figure("mean PRD by slope and intensity over all rows, by DuckDB", by_duckdb, "s")
-    figure("the same by pandas", seconds(by_pandas), "s")
+    figure("mean PRD by slope and intensity over all rows, with DuckDB", by_duckdb, "s")
+    figure("the same with pandas", seconds(by_pandas), "s")
 
 
 def one_suite() -> None:
@@ -117,16 +117,16 @@ def one_suite() -> None:
         bare_cpu = swept(campaign)
         size = sum(path.stat().st_size for path in folder.glob("part-*"))
         figure("runs in one axis", campaign.rows)
-        figure("processor time, Parquet included", cpu, "s", digits=3)
+        figure("processor time, including Parquet output", cpu, "s", digits=3)
         figure("this, relative to `solver.sweep` alone", cpu / bare_cpu, digits=3)
-        figure("runs in a second of processor time", campaign.rows / cpu)
-        figure("size of a run on disk", size / campaign.rows, "B", digits=3)
+        figure("runs per second of processor time", campaign.rows / cpu)
+        figure("disk space per run", size / campaign.rows, "B", digits=3)
         identity = manifest_of(campaign, {})["identity"]
         found = done_parts(folder, campaign, identity, KEY)
         rows = sum(peaks(read_part(folder, done), campaign)[0].size for done in found.values())
         assert rows == campaign.rows
         peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
-        figure("largest memory, every part read again", peak, "GB")
+        figure("peak memory, with all batches read again", peak, "GB")
         queries(folder)
 
 
@@ -139,7 +139,7 @@ def many_records() -> None:
     bare_cpu = swept(campaign)
     figure("records of unequal length", COUNT)
     figure("of these, recorded in earthquakes", len(given))
-    figure("runs under them", campaign.rows)
+    figure("runs with these records", campaign.rows)
     figure("their processor time relative to `solver.sweep` alone", cpu / bare_cpu, digits=3)
 
 

@@ -32,10 +32,10 @@ if __name__ == "__main__":
     taken = time.process_time() - begun
     figure("seeds", SEEDS)
     figure("components", len(fits))
-    figure("making and checking a component", taken / len(fits), "s")
+    figure("time to generate and check a component", taken / len(fits), "s")
     figure("smallest ratio to the target", min(fit.minimum for fit in fits), digits=3)
     figure("largest ratio to the target", max(fit.maximum for fit in fits), digits=3)
     figure("smallest mean ratio", min(fit.mean for fit in fits), digits=3)
     figure("largest mean ratio", max(fit.mean for fit in fits), digits=3)
     figure("largest correlation of two components", max(correlations))
-    figure("largest sum of samples and of their moments, off zero by", drift)
+    figure("sums of samples and moments, largest deviation from zero", drift)

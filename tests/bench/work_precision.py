@@ -62,7 +62,7 @@ def one_axis(plane: pd.DataFrame) -> None:
     """Print time and error of each method and program, and draw them beside those in two axes."""
     real = () if SMOKE else peers.real_records()
     runs = list(zip(real, itertools.cycle(CASES), strict=False)) or compared_runs(SMOKE)
-    source = "real" if real else "made"
+    source = "real" if real else "generated"
     figure("runs of each method", len(runs), f"under {source} records")
     found = work_points(runs, quick=SMOKE)
     error = "PRD error [%]"
