@@ -16,7 +16,6 @@ from report.text.validation import VALIDATION
 def page(package: PackageData) -> Mapping[str, object]:
     """Return what the page says, by whether there are motions."""
     done, data = package.assessment, package.data
-    checks = {check.id for check in done.checks}
     motions = [run.motion for run in done.governing.motions]
     turned = []
     if any(motion.has_transverse for motion in motions):
@@ -25,7 +24,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         turned.append("a reversed vertical component")
     return {
         "rules": done.rules.name,
-        "is_compared": bool(checks & {"rule_set", "edition_name"}),
+        "under_code": done.otherwise.get("rule_set", ""),
         "has_motions": done.has_motions,
         "saving": ""
         if done.has_motions
