@@ -34,7 +34,7 @@ def test_each_correction_of_a_number_a_verdict_or_a_refusal_is_a_known_error():
     starts = [change for error in known_errors() for change in error.changes]
     later = LOG.partition("\n## 0.1.0")[0]  # no version before it had the errors
     fixed = re.findall(r"^### Fixed\n(.*?)(?=^###? |\Z)", later, re.MULTILINE | re.DOTALL)
-    assert len(fixed) == 3
+    assert len(fixed) == later.count("\n### Fixed\n") >= 3
     for section in fixed:
         above, *heads = re.split(r"^#### ", section, flags=re.MULTILINE)
         assert above.strip() == "", f"is it below '{DECIDES}' or '{OTHER}'?"
