@@ -18,16 +18,20 @@ STEPS = {"friction": (0.69, 0.01), "slope": (0.1, 0.1), "intensity": (0.7, 0.02)
 
 WATCHING = """
 () => {
-  window.watched = (kinds, started) => new Promise((done, fail) => {
+  // Until the answer of its value is there, what is told beside a slider is of a former one.
+  window.watched = (slider, kinds, started) => new Promise((done, fail) => {
+    const told = document.querySelector(`output[for=slider-${slider}]`);
     const observer = new MutationObserver(() => {
       const { values } = document.body.dataset;
-      if (started() === null || !kinds.includes(values)) return;
+      const isOfThis = !told.classList.contains("is-former");
+      if (started() === null || !isOfThis || !kinds.includes(values)) return;
       observer.disconnect();
       clearTimeout(limit);
       requestAnimationFrame(() => done([performance.now() - started(), values]));
     });
     const limit = setTimeout(() => fail(new Error("no answer is drawn")), 30_000);
     observer.observe(document.body, { attributes: true, attributeFilter: ["data-values"] });
+    observer.observe(told, { attributes: true, attributeFilter: ["class"] });
   });
 }
 """
@@ -36,7 +40,7 @@ async ([slider, values, isLetGo]) => {
   const input = document.querySelector(`#slider-${slider}`);
   const answered = (event, kinds) => {
     const start = performance.now();
-    const answer = watched(kinds, () => start);
+    const answer = watched(slider, kinds, () => start);
     input.dispatchEvent(event);
     return answer;
   };
@@ -88,7 +92,8 @@ ARMED = """
 () => {
   let start = null;
   addEventListener("input", () => { start = performance.now(); }, { once: true, capture: true });
-  window.drawn = watched(["provisional", "final"], () => start).then(([time_ms]) => time_ms);
+  window.drawn = watched("friction", ["provisional", "final"], () => start)
+    .then(([time_ms]) => time_ms);
 }
 """
 
