@@ -10,7 +10,7 @@ Integrates nothing itself (`solver.sliding.model_selection` does) and knows no c
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from copy import copy
 from dataclasses import dataclass
@@ -37,6 +37,9 @@ Names = Mapping[str, Sequence[str]]
 
 Reference = Mapping[str, Names]
 """By array and motion, the orientations with the largest PRDs: data for JSON."""
+
+
+_Key = tuple[Hashable, ...]  # the scene first
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -123,18 +126,18 @@ class Runs:
         # Runs in two axes and of rows release the GIL: two proceed in parallel.
         self._pool = ThreadPoolExecutor(THREADS)
         self._motions: dict[str, Motion] = {}
-        self._begun: dict[Hashable, Future[OrientedRun]] = {}
-        self._batches: dict[Hashable, list[Future[OrientedRun]]] = {}
+        self._begun: dict[_Key, Future[OrientedRun]] = {}
+        self._batches: dict[_Key, list[Future[OrientedRun]]] = {}
         # One result for all arrays that share it: what follows from it alone is computed once.
-        self._done: dict[Hashable, MotionRun] = {}
+        self._done: dict[_Key, MotionRun] = {}
 
-    def copy(self) -> Runs:
-        """Return the runs that there are; those that follow are kept in the copy alone."""
-        copied = Runs(self._known, self._tolerance)
-        copied._motions |= self._motions
-        copied._begun |= self._begun
-        copied._batches |= self._batches
-        copied._done |= self._done
+    def copy(self, scenes: Collection[Hashable] = ()) -> Runs:
+        """Return the runs that there are, or of some scenes; the copy alone keeps what follows."""
+        copied = copy(self)
+        copied._motions = dict(self._motions)
+        copied._begun = _of(scenes, self._begun)
+        copied._batches = _of(scenes, self._batches)
+        copied._done = _of(scenes, self._done)
         return copied
 
     def knowing(self, known: Reference) -> Runs:
@@ -191,6 +194,10 @@ class Runs:
             about = array, motion, orientation, self._tolerance
             self._begun[key] = self._pool.submit(run_oriented, *about)
         return self._begun[key]
+
+
+def _of(scenes: Collection[Hashable], known: Mapping[_Key, _T]) -> dict[_Key, _T]:
+    return {key: found for key, found in known.items() if not scenes or key[0] in scenes}
 
 
 def scene_key(array: Array) -> Hashable:

@@ -127,7 +127,9 @@ class OpenProject:
         kept = (self.first or self)._passing
         # Where clearances move, or units, all runs are there: 0.1 s of the example.
         if not kept or kept[0][:2] != (scenes, reference):
-            kept[:] = [(scenes, reference, Runs(reference, PASSING))]
+            is_same = bool(kept) and kept[0][1] == reference
+            runs = kept[0][2].copy(scenes) if is_same else Runs(reference, PASSING)
+            kept[:] = [(scenes, reference, runs)]
         return self._assessed(kept[0][2], Extent.ALONE)
 
     def _assessed(self, runs: Runs, extent: Extent) -> Assessment:

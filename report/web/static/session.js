@@ -6,8 +6,8 @@ import { isSame, typedOf } from "./changes.js";
 
 const REST_MS = 80; // without a step of a key, after which a slider rests
 const HOLD_MS = 400; // without a move of the pointer that holds it, likewise: a pause in a drag asks nothing
-const GAP_MS = 300; // at least, from one provisional answer that is asked to the next: each costs 0.1 s of a processor
-const STEP_MS = 400; // after which a step is answered provisionally, if the full answer is not there
+const GAP_MS = 400; // at least, from one provisional answer that is asked to the next: nobody reads numbers faster
+const SLOW_MS = 400; // after which values at rest are answered provisionally, if the full answer is not there
 
 /** The whole sheet of the plan. */
 export const WHOLE = { scale: 1, x: 0, y: 0 };
@@ -63,8 +63,7 @@ function createRuns(state, set, assess, fail) {
   let isHeld = false; // by the pointer: what an answer lacks is asked once it lets go
 
   async function ask(moving, whole = false) {
-    const asked = version;
-    const { values } = state; // replaced, never written to
+    const [asked, values] = [version, state.values]; // replaced, never written to
     const isWanted = () => (moving && isMoving) || (asked === version && !(moving && isFull));
     try {
       const answer = await assess(moving, values, whole);
@@ -76,19 +75,20 @@ function createRuns(state, set, assess, fail) {
       // Values are refused with their problems. Any other fault of a provisional answer is left to the full one.
       const isRefused = error.problems?.length > 0;
       if (!isWanted() || (moving && !isRefused)) return;
+      clearTimeout(timer);
       set({ phase: "failed", shows: "former", failure: error });
       if (!isRefused) fail(error);
     }
   }
 
-  const askMoving = createLane(async () => isFull || ask(true), GAP_MS);
+  const askMoving = createLane(async () => isMoving && ask(true), GAP_MS);
+  const askMeanwhile = createLane(async () => isFull || isMoving || ask(true));
   const askFull = createLane(async () => isMoving || ask(false, isFull));
 
   function change(values, moves) {
     clearTimeout(timer);
     version += 1;
-    isMoving = moves;
-    isFull = false;
+    [isMoving, isFull] = [moves, false];
     set({ values: present(values), phase: moves ? "moving" : "settling", turned: {}, ...former(state.answer) });
   }
 
@@ -97,6 +97,7 @@ function createRuns(state, set, assess, fail) {
     isMoving = false;
     set({ phase: "settling" });
     askFull();
+    timer = setTimeout(askMeanwhile, SLOW_MS);
   }
 
   return {
@@ -111,23 +112,24 @@ function createRuns(state, set, assess, fail) {
       const rests = isStep && isFull;
       isHeld = !isStep;
       change(values, !rests);
-      if (rests) askFull();
+      if (rests) rest();
       else askMoving();
-      timer = rests ? setTimeout(askMoving, STEP_MS) : setTimeout(rest, isHeld ? HOLD_MS : REST_MS);
+      if (isMoving) timer = setTimeout(rest, isHeld ? HOLD_MS : REST_MS);
     },
     // The values of the workbook have their answer; others are asked in full.
     at(all) {
       isHeld = false;
       change(all, false);
-      const { project, values } = state;
-      isFull = Boolean(project?.answer) && isSame(values, typedOf(project));
-      if (isFull) set(answered(project.answer, values));
-      else askFull();
+      isFull = isAsTyped(state);
+      if (isFull) set(answered(state.project.answer, state.values));
+      else rest();
     },
   };
 }
 
 const answered = (answer, values) => ({ phase: "rest", shows: "final", failure: null, answer: { ...answer, values } });
+
+const isAsTyped = ({ project, values }) => Boolean(project?.answer) && isSame(values, typedOf(project));
 
 // The answer stays beside other values, without its verdict.
 const former = (answer) => (answer?.verdict ? { answer: { ...answer, verdict: null }, shows: "former" } : {});

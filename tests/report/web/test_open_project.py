@@ -3,8 +3,9 @@
 import pytest
 
 from fixtures.paths import ROOT
+from report import runs
 from report.assessment.assess import Extent
-from report.web.open_project import KEPT_VALUES, open_project
+from report.web.open_project import KEPT_VALUES, open_project, reference_of
 
 
 @pytest.fixture(scope="module")
@@ -51,3 +52,13 @@ def test_what_was_assessed_in_whole_is_not_assessed_again_in_part():
     done = narrow.assessed()
     assert narrow.assessed(Extent.AS_GIVEN) is done
     assert done.acceptance is whole.acceptance
+
+
+def test_where_one_array_moves_the_others_are_not_run_again(given, monkeypatch):
+    known, ran = reference_of(given.assessed(Extent.AS_GIVEN)), []
+    run = runs.run_oriented
+    monkeypatch.setattr(runs, "run_oriented", lambda *a: ran.append(a[0].id) or run(*a))
+    for mu in (0.9, 0.91):
+        ran.clear()
+        given.at({"friction@A1": mu}).moving(known)
+    assert ran == ["A1"] * 2 * len(given.shaking.motions)

@@ -94,6 +94,16 @@ STEPS = {
         while (shown.at(-1).phase !== "settling") await pause(20);
         return asked.map(({ moving }) => moving);""",
         [True, False]),
+    "a provisional answer that waits is asked at rest only where the full one is slow": ("""
+        session.move({ x: 1 });
+        asked[0].done(); await pause(100);
+        session.move({ x: 2 });
+        session.release();
+        const start = performance.now();
+        while (asked.length < 3) await pause(20);
+        const waited = performance.now() - start;
+        return [asked.map(({ moving, values }) => [moving, values.x]), waited >= 390];""",
+        [[[True, 1], [False, 2], [True, 2]], True]),
     "a slow provisional answer is shown until the full one is there": ("""
         session.move({ x: 1 });
         await pause(500);
