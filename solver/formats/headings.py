@@ -11,7 +11,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import chain, islice
 
 from solver.errors import InputError
 from solver.formats import phrases
@@ -62,10 +62,10 @@ class Layout:
         """Return the fields of a row."""
         return content.split(self.separator)
 
-    def step(self) -> Stated:
-        """Step [s] that a remark states; NaN for none."""
-        steps = (phrases.step_in(self.source, index, line) for index, line in self.remarks)
-        return next((step for step in steps if not math.isnan(step.value)), Stated())
+    def steps(self) -> list[Stated]:
+        """Steps [s] that remarks state."""
+        lines = (phrases.steps_in(self.source, index, line) for index, line in self.remarks)
+        return list(chain.from_iterable(lines))
 
     def seconds(self) -> float:
         """Value [s] of the unit of the times in the first column."""

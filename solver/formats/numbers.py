@@ -20,6 +20,7 @@ from typing import TypeVar
 import numpy as np
 
 from solver.errors import InputError, raise_any
+from solver.formats.columns import rising
 from solver.formats.source import Source, Stated
 from solver.model import Floats
 from solver.records.record import BEYOND, is_finite_number, quoted
@@ -119,14 +120,19 @@ def free_values(source: Source, block: Block) -> Floats:
     """Values of all lines of a block, separated by blanks; their number must be that stated."""
     _check_enough(source, block)
     rows = source.lines[block.first : block.stop]
-    values = _row_by_row(source, block, rows, _apart)
+    values = _row_by_row(source, block, rows, separated)
     if len(values) != block.count:
+        if len(values) == 2 * block.count and rising(values.reshape(-1, 2)) == [0]:
+            raise InputError(
+                f"{source.at(block.promised)}: states {block.count} values, found times beside"
+                " them; delete the lines above the times, and enter a heading such as time_s,acc_g"
+            )
         raise InputError(_wrong_count(source, block, len(values)))
     written = [(index, row) for index, row in enumerate(rows, block.first) if row.strip()]
     if len(written) == len(values):
         _check_halved(source, written)
     last = " ".join(row for _, row in written[-COMPARED:])
-    check_last(source, written[-1][0], _apart(last.translate(_FORTRAN)))
+    check_last(source, written[-1][0], separated(last.translate(_FORTRAN)))
     return values
 
 
@@ -209,6 +215,13 @@ def dated_table(source: Source, rows: Sequence[tuple[int, list[str]]], width: in
     return np.array([[number_in(field) for field in fields[1:]] for _, fields in rows])
 
 
+def separated(text: str) -> list[str]:
+    """Fields between blanks, between commas beside points, or before a sign that fills a field."""
+    if "," in text and "." in text:
+        text = text.replace(",", " ")
+    return _TOUCHING.sub(" ", text).split()
+
+
 def is_row(fields: Sequence[str]) -> bool:
     """Whether all fields of a line are numbers, of which there is one."""
     plain = [field.rstrip(",").translate(_FORTRAN) for field in fields]
@@ -238,11 +251,6 @@ def each(read: Callable[[_Item], _Result], items: Iterable[_Item]) -> list[_Resu
             problems += error.problems
     raise_any(problems)
     return results
-
-
-def _apart(text: str) -> list[str]:
-    """Fields separated by blanks, or by the sign of the next field if it fills its columns."""
-    return _TOUCHING.sub(" ", text).split()
 
 
 def _check_enough(source: Source, block: Block) -> None:

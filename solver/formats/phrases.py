@@ -3,7 +3,7 @@
 `EW [cm/s2]` heads an acceleration in cm/s2, and `dt = 5 ms` states a step of 0.005 s.
 
 One vocabulary for all readers: quantity, units, step or rate, and count; knows no format. Read
-`parse` of one heading, then `units_in` and `step_in` of a line.
+`parse` of one heading, then `units_in` and `steps_in` of a line.
 """
 
 from __future__ import annotations
@@ -70,16 +70,18 @@ _QUANTITY = re.compile(
 
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]{1,16})[\])]")
 _UNITS_OF = re.compile(
-    r"\bunits?\b[\s:=]*+(?:(?:of|in|are|is)\b[\s:=]*+)*+([^\s,;()\[\]]+)", re.IGNORECASE
+    r"\bunits?\b[\s:=]*+(?:(?:of|in|are|is)\b(?!/)[\s:=]*+)*+([^\s,;()\[\]]+)", re.IGNORECASE
 )
 _STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;()\[\]]+)", re.IGNORECASE)
 
-_VALUE = r"([+-]?(?:\d++\.?+\d*+|\.\d++)(?:[eE][+-]?\d++)?)"
+# Also `0,005`, and `1/200` of a second.
+_VALUE = r"([+-]?(?:\d++(?:\.\d*+|,\d++)?+|\.\d++)(?:[eE][+-]?\d++)?(?:/\d++)?)"
 _HERTZ = r"(k?hz|sps|samples?(?: per |/)s(?:ec|econd)?)\b"
 _RATE = re.compile(
     r"\b(?:sampl(?:ing|e)[ _]?(?:rate|freq(?:uency)?)|frecuencia de muestreo|fs)\s*+"
-    rf"(?:[\[(]\s*+{_HERTZ}\s*+[\])]\s*+)?+([:=]?)\s*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+(?:{_HERTZ})?+",
+    rf"(?:[\[(]\s*+{_HERTZ}\s*+[\])]\s*+)?+([:=]?)\s*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+(?:{_HERTZ})?+"
+    r"(?:([a-z]++)(?!\^?-))?+",
     re.ASCII | re.IGNORECASE,
 )
 _STEP = re.compile(
@@ -89,6 +91,7 @@ _STEP = re.compile(
     rf"\s*+([:=]?)[\s/]*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+([a-zµμ]*)",
     re.IGNORECASE,
 )
+_GROUPED = re.compile(r"[1-9]\d{0,2},\d{3}", re.ASCII)  # one, or a thousand
 _COUNT = re.compile(
     r"\b(?:(?:number|no\.?) of (?:data )?(?:points|samples|values)|npts)\b"
     r"\s*+(?:[:=]\s*)?(\d{1,9})\b(?![.,]\d)",
@@ -266,24 +269,42 @@ def stated_units(line: str) -> list[str]:
     return units_in(line) if _STATES_UNITS.search(line) else []
 
 
-def step_in(source: Source, index: int, line: str) -> Stated:
-    """Time step [s] that the line at an index states, as a step or as a rate; NaN for none."""
+def steps_in(source: Source, index: int, line: str) -> list[Stated]:
+    """Time steps [s] that the line at an index states, as a step or as a rate."""
+    steps: list[Stated] = []
     rate = _RATE.search(line)
-    if rate and (rate[1] or rate[2] or rate[4]) and float(rate[3]) > 0.0:
-        size = 1000.0 if "khz" in rate[0].lower() else 1.0
-        return Stated(value=1.0 / (size * float(rate[3])), index=index)
+    unit = (rate[5] or "").lower() if rate else ""
+    if rate and (rate[1] or rate[2] or rate[4] or unit in SECONDS):
+        stated = _stated(source, index, rate[3])
+        if unit in SECONDS:
+            steps.append(_times(stated, SECONDS[unit]))
+        elif stated.value > 0.0:
+            size = 1000.0 if "khz" in rate[0].lower() else 1.0
+            steps.append(Stated(value=1.0 / (size * stated.value), index=index))
     match = _STEP.search(line)
     if not match:
-        return Stated(index=index)
+        return steps
     before, after = (match[1] or match[2] or "").lower(), match[5].lower()
     unit = before or after
     if unit in OTHER_TIMES:
         raise InputError(f"{source.at(index)}: found a step in {unit}; enter it in s, ms or min")
     # Behind the number may be another word; before it, or without a sign, it must be a time.
-    if unit not in SECONDS and (before or not match[3]):
-        return Stated(index=index)
-    size, stated = SECONDS.get(unit, 1.0), printed(match[4], index)
-    return Stated(value=stated.value * size, rounding=stated.rounding * size, index=index)
+    if unit in SECONDS or (match[3] and not before):
+        steps.append(_times(_stated(source, index, match[4]), SECONDS.get(unit, 1.0)))
+    return steps
+
+
+def _stated(source: Source, index: int, text: str) -> Stated:
+    """Read a number with a point, a decimal comma or a stroke of division."""
+    if _GROUPED.fullmatch(text):
+        raise InputError(f"{source.at(index)}: found {text!r}; enter a number with a decimal point")
+    above, _, below = text.replace(",", ".").partition("/")
+    number = printed(above, index)
+    return replace(number, value=number.value / float(below)) if float(below or 0.0) else number
+
+
+def _times(stated: Stated, size: float) -> Stated:
+    return replace(stated, value=stated.value * size, rounding=stated.rounding * size)
 
 
 def count_in(line: str) -> int:

@@ -141,6 +141,22 @@ class Source:
             raise InputError(Problem(problem, remedy, about="units"))
         return unit_size(self.units)
 
+    def agreed(self, steps: Sequence[Stated]) -> Stated:
+        """Return the step [s] that lines of text state: of several that of the caller, if any."""
+        given = [step for step in steps if abs(step.value - self.dt_s) <= 1e-4 * self.dt_s]
+        first, *others = given or steps
+        for step in others:
+            # A step of one digit is rounded, but not to half of it.
+            rounding = min(first.rounding + step.rounding, 0.1 * first.value)
+            if abs(step.value - first.value) > rounding + 1e-4 * first.value:
+                problem = (
+                    f"{self.at(step.index)}: found a step of {step.value:g} s and one of"
+                    f" {first.value:g} s"
+                )
+                remedy = "enter the time step dt, or correct one of them"
+                raise InputError(Problem(problem, remedy, about="dt_s"))
+        return first
+
     def step(self, stated: Stated) -> float:
         """Sampling interval [s] stated in the file; the caller's, if any, must agree."""
         value = stated.value

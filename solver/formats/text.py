@@ -296,17 +296,17 @@ def _has_times(layout: Layout, table: Floats) -> bool:
 
 def _untimed_step(layout: Layout, columns: int) -> float:
     """Step [s] of a text without times: from a remark, or the caller."""
-    source, stated = layout.source, layout.step()
-    if math.isnan(stated.value) and math.isnan(source.dt_s):
+    source, steps = layout.source, layout.steps()
+    if not steps and math.isnan(source.dt_s):
         noun = "one column," if columns == 1 else "columns"
         problem = f"{source.name}: found {noun} without times"
         raise InputError(Problem(problem, "enter the time step dt", about="dt_s"))
-    return source.dt_s if math.isnan(stated.value) else source.step(stated)
+    return source.step(source.agreed(steps)) if steps else source.dt_s
 
 
 def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
     """Columns by the times in the first one, which must agree with a step that is stated."""
-    source, stated = layout.source, layout.step()
+    source, steps = layout.source, layout.steps()
     in_line = _pairs_in_line(layout, table) or 1
     _check_decimal_comma(layout, table[:, 0])
     unit_s = _unit_of_times(layout, table)
@@ -316,10 +316,11 @@ def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
         return next(islice(layout.rows(), row // in_line, None))[0]
 
     dt_s, columns, notes = sampled(source, t_s, columns, line_of, unit_s)
-    # Where the times are even, they have the step that a remark states.
-    if not notes and abs(dt_s - stated.value) > stated.rounding + 1e-4 * dt_s:
+    # Where the times are even, they have a step that a remark states.
+    off = [step for step in steps if abs(dt_s - step.value) > step.rounding + 1e-4 * dt_s]
+    if steps and off == steps and not notes:
         raise InputError(
-            f"{source.at(stated.index)}: states a step of {stated.value:.6g} s, the times have"
+            f"{source.at(steps[0].index)}: states a step of {steps[0].value:.6g} s, the times have"
             f" {dt_s:.6g} s; use a file in which they agree"
         )
     return dt_s, columns, notes

@@ -290,14 +290,26 @@ _SIZES = UNITS | {
     "g/10": _G_MPS2 / 10.0,
     "%g": _G_MPS2 / 100.0,
     "mg": _G_MPS2 / 1000.0,
+    "µg": _G_MPS2 / 1e6,
+    "µm/s2": 1e-6,
+    "nm/s2": 1e-9,
     "ft/s2": 0.3048,
     "in/s2": INCH_M,
 }
 
-_LENGTHS = "mm|cm|m|ft|in"
+_LENGTHS = "nm|µm|mm|cm|m|ft|in"
 _NOT_ACCELERATION = re.compile(
     rf"({_LENGTHS})(/s)?|[a-z]+/s[23]|rad|(rad|deg|°)/s|dps|deg|°[cf]?|m?volts?|mv|h?k?pa|psi|%|[uµμ]t"
 )
+_SPELLINGS = tuple(
+    (re.compile(pattern), short)
+    for pattern, short in (
+        (r"^cms/", "cm/"), (r"^inch(?:es)?", "in"), (r"^(?:feet|foot)", "ft"),
+        (r"^met(?:er|re)s?", "m"), (r"^milli-?", "m"), (r"^(?:micro-?|u|μ)", "µ"),
+        (r"^nano-?", "n"), (r"^g(?:n|'s)$", "g"), (r"se[cg](?:onds?)?", "s"), (r"s/s", "s2"),
+        (r"^gals$", "gal"),
+    )
+)  # fmt: skip
 _RAW = {"count", "counts", "lsb", "digits", "adc"}
 
 
@@ -317,11 +329,12 @@ def is_raw(text: str) -> bool:
 
 
 def _plain(text: str) -> str:
-    """Normalize: `CM/SEC/SEC`, `cm/s**2`, `cm s^-2`, `cmps2` and `cm/s²` become `cm/s2`."""
+    """Normalize: `CM/SEC/SEC`, `cm/s**2`, `cm.s^-2`, `cmps2` and `cm/s²` become `cm/s2`."""
     plain = (
-        re.sub(r"[\s^*·]", "", text.lower().replace("s*s", "s2"))
+        re.sub(r"[\s^*·.]", "", text.lower().replace("s*s", "s2"))
         .replace("²", "2")
         .replace("⁻", "-")
     )
-    plain = re.sub(r"se[cg](onds?)?", "s", plain).replace("s/s", "s2").replace("gals", "gal")
+    for pattern, short in _SPELLINGS:
+        plain = pattern.sub(short, plain)
     return re.sub(rf"^({_LENGTHS})(?:[p_/]s-?2|s-2)$", r"\1/s2", plain)

@@ -62,7 +62,7 @@ _RATE_LINE = re.compile(
 )
 _STEP_LINE = re.compile(
     r"(?<!\d)(\d+)\s+POINTS OF ACC(?:EL)? DATA EQUALLY SPACED AT\s+([\d.]+)\s*SEC[.,\s(]*"
-    r"(?:UNITS:|IN(?: UNITS)?)\s*([A-Z/0-9]+)[.\s)]*(?:\(([^)]*)\))?",
+    r"(?:(?:UNITS:|IN(?: UNITS)?)\s*([A-Z/0-9]+)[.\s)]*)?(?:\(([^)]*)\))?",
     re.ASCII | re.IGNORECASE,
 )
 _SERIES = re.compile(r"\s*\d+\s+POINTS OF (VEL|DIS|ACC)", re.ASCII | re.IGNORECASE)
@@ -105,11 +105,13 @@ def read(source: Source) -> MotionFile:
     volume = _TWO if _VOLUME_2.match(source.line(0)) else _ONE
     # RENADIC of Chile writes volume 1 of CSMIP, and says so in its text.
     text = " ".join(source.lines[: volume.text]).upper()
-    names = ("RENADIC", "USC", "BHRC") if volume is _ONE else ()
-    name = next((name for name in names if name in text), "CSMIP")
-    if name == "USC":  # a blank begins each line of values, and nothing ends them
-        rows = (line[1:] for line in source.lines[_ONE.heading :])
-        source = replace(source, lines=[*source.lines[: _ONE.heading], *rows, "/&"])
+    # At USC are stations of others, too.
+    names = ("RENADIC", "USC#", "BHRC") if volume is _ONE else ("USC#",)
+    name = next((name.rstrip("#") for name in names if name in text), "CSMIP")
+    if name == "USC":  # a blank begins each line of values of volume 1, and nothing ends them
+        skipped = int(volume is _ONE)
+        rows = (line[skipped:] for line in source.lines[volume.heading :])
+        source = replace(source, lines=[*source.lines[: volume.heading], *rows, "/&"])
     parts = channels.parts_of(source, volume.first)
     if name == "BHRC":
         channels.check_components(source, parts)
@@ -197,7 +199,9 @@ def _even_values(
     later = (i for i in range(index + 1, stop) if _SERIES.match(source.lines[i]))
     block = Block(first=index + 1, stop=next(later, stop), count=int(line[1]), promised=index)
     numbers = fixed_values(source, block, layout) if layout else free_values(source, block)
-    values = numbers * source.scale(line[3], index)
+    # USC states no unit there.
+    peak = None if line[3] else _search(source, part, volume.peak)
+    values = numbers * source.scale(peak[1][2] if peak else line[3] or "", index)
     length = _real(source, part, volume, volume.length)
     channels.check_length(source, length, len(values) * dt_s, dt_s)
     return Record(name="", dt_s=dt_s, a_mps2=values, notes=ended)

@@ -25,7 +25,7 @@ from solver.formats.channels import (
     offset_notes,
     time_in,
 )
-from solver.formats.numbers import Block, free_values, is_row, printed
+from solver.formats.numbers import Block, free_values, is_row, printed, separated
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
@@ -42,7 +42,7 @@ _KEYS = {
     "peak": r"(?:RAW )?PGA|PEAK (?:VALUE|ACCELERATION)|AMPLITUDEMAX"
     r"|ACEL(?:ERACI[OÓ]N)?\.? M[AÁ]X(?:IMA)?(?!.*MUESTRA)",
     "length": r"DURATION|RECORD ?LENGTH|DURACI[OÓ]N",
-    "names": r"STREAM|COMPONENTE?|ORIENTATION OF TRANSDUCER|ORIENTACI[OÓ]N|DATASEQUENCE|COMP\.",
+    "names": r"STREAM|COMPONENTE?|ORIENTATION|ORIENTACI[OÓ]N|DATASEQUENCE|COMP\.",
     "quantity": "DATA_TYPE",
     "start": r"DATE_TIME_FIRST_SAMPLE_YYYYMMDD|RECORD(?:ER)? TIME|START ?TIME|INITIAL TIME"
     r"|TIME OF FIRST SAMPLE",
@@ -148,10 +148,10 @@ def _heading(source: Source) -> _Heading:
     step = Stated()
     for index, line in enumerate(source.lines[:_LONGEST_HEADING]):
         # A number alone may stand among the lines of a heading.
-        if entries and is_row(line.replace(",", " ").split()):
+        if entries and is_row(separated(line.replace(",", " "))):
             return _Heading(entries=entries, step=step, first=index)
         if math.isnan(step.value):
-            step = phrases.step_in(source, index, line)
+            step = next(iter(phrases.steps_in(source, index, line)), step)
         for name, pattern in _ENTRIES.items():
             if match := pattern.fullmatch(line.strip("# ")):
                 entries.setdefault(name, []).append((match[1], match[2].strip(), index))
@@ -172,12 +172,12 @@ def _names(source: Source, heading: _Heading) -> list[str]:
     if len(above) > 1 and all(map(_NAME.fullmatch, above)):
         return above
     named = _words(heading)
-    return named if len(named) in (1, len(source.lines[heading.first].split())) else [""]
+    return named if len(named) in (1, len(separated(source.lines[heading.first]))) else [""]
 
 
 def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats:
     """Values, shape (k, n), as many as are stated."""
-    rows = [(i, source.lines[i].split()) for i in range(heading.first, stop)]
+    rows = [(i, separated(source.lines[i])) for i in range(heading.first, stop)]
     if width > 1:
         raise_any(
             f"{source.at(index)}: found {len(fields)} values; enter {width}"

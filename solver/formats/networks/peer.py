@@ -18,7 +18,7 @@ from solver.formats import phrases
 from solver.formats.channels import motion_file
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.record_file import MotionFile
-from solver.formats.source import Source
+from solver.formats.source import Source, Stated
 from solver.records.record import Record, quoted
 
 # Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there
@@ -66,7 +66,8 @@ def read(source: Source) -> MotionFile:
             units += [(unit, index) for unit in phrases.units_in(line)]
     scale = source.stated_scale(units)
     step = printed(counted[2], number) if counted.re is not _NAMED else None
-    dt_s = source.step(step or phrases.step_in(source, number, stated))
+    steps = [step] if step else phrases.steps_in(source, number, stated)
+    dt_s = source.step(source.agreed(steps or [Stated(index=number)]))
     block = Block(first=number + 1, stop=len(source.lines), count=int(counted[1]), promised=number)
     values = free_values(source, block) * scale
     # The second line has event, date, station and component.

@@ -263,7 +263,7 @@ KINDS = {
     "a zip": Kind(zipped("record.csv", PLAIN), "unpack it", PLAIN),
     "a gzip": Kind(gzip.compress(PLAIN.encode()), "unpack it", PLAIN),
     "a workbook": Kind(
-        workbook(T, V, head=("time_s", "acc_g")), "save its sheet as CSV", PLAIN
+        workbook(T, V, head=("time_s", "acc_g")), "save its worksheet as CSV", PLAIN
     ),
     "an array of numpy": Kind(
         array_of(TRUTH_G), "write its values as columns below a heading such as time_s,x_g,y_g",

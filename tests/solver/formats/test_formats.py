@@ -439,9 +439,38 @@ def test_the_unit_of_a_count_and_step_is_found_however_it_is_said(file, line):
     assert read_motion_file(file(content)).channel().a_mps2.tolist() == [G, 2.0 * G, 3.0 * G]
 
 
+def test_volume_2_of_usc_has_the_unit_of_its_peak_and_no_end(file):
+    text = (SAMPLES / "csmip-old.v2").read_text()
+    first = text[: text.index("/&")].replace("NO SUCH SCHOOL", "STATION USC# 0000", 1)
+    first = first.replace(".  (UNITS: CM/SEC/SEC)", ".").replace("CM/SEC/SEC", "CMS/SEC/SEC")
+    motion_file = read_motion_file(file(first))
+    assert (motion_file.format, motion_file.notes[1:]) == ("USC V2", ())
+    assert motion_file.channels[0].a_mps2 == pytest.approx(WAVE / 100, abs=0.51e-5)
+
+
+def test_a_station_of_csmip_may_be_at_usc(file):
+    text = (SAMPLES / "csmip-even.raw").read_text().replace("No Such School", "LA - USC School")
+    motion_file = read_motion_file(file(text))
+    assert motion_file.format == "CSMIP V1"
+    assert motion_file.channels[0].a_mps2 == pytest.approx(WAVE / 1000 * G, abs=0.51e-6 * G)
+
+
+@pytest.mark.parametrize("values", ["1.0, 2, 3,", "1.0,2,3.0", "1E0\t2\t3\t", " 1.00 2.00 3.00"])
+def test_values_below_a_count_are_apart_by_commas_tabs_and_signs(file, values):
+    content = f"{PEER_HEADING}NPTS= 6, DT= .01 SEC\n{values}\n-1.0000E+00-2.0000E+00-3.\n"
+    g = [round(value / G, 9) for value in read_motion_file(file(content)).channel().a_mps2]
+    assert g == [1.0, 2.0, 3.0, -1.0, -2.0, -3.0]
+
+
 @pytest.mark.parametrize(
     ("line", "values", "expected"),
     [
+        (
+            "NPTS= 6, DT= .01 SEC",
+            "0 1\n.01 2\n.02 3\n.03 1\n.04 1\n.05 2",
+            "4: states 6 values, found times beside them; delete the lines above the times, and"
+            " enter a heading such as time_s,acc_g",
+        ),
         ("NPTS= 3, DT= 5 USEC", "1 2 3", "4: found a step in usec; enter it in s, ms or min"),
         ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; use the whole file"),
         ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; enter the time step dt"),

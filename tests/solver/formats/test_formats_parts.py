@@ -150,11 +150,13 @@ G = 9.80665
 
 
 SIZES = {
-    G: ("g", "G"), G / 10: ("g/10",), G / 100: ("%g",), G / 1000: ("mg",),
+    G: ("g", "G", "gn", "g's"), G / 10: ("g/10",), G / 100: ("%g",),
+    G / 1000: ("mg", "milli-g", "milli g"), G / 1e6: ("µg", "ug", "micro-g"),
     1.0: ("m/s2", "m/s/s", "m/s**2", "m/s^2", "m/s²", "m/sec/sec", "m s-2", "m·s⁻²", "m_s2",
-          "mps2"),
+          "mps2", "m.s-2", "meter/s2"),
     0.01: ("gal", "Gals", "CM/SEC/SEC", "cm/sec2", "cm_s2", "cmps2"),
-    0.001: ("mm/s/s",), 0.3048: ("ft/s2",), 0.0254: ("in/s2",),
+    0.001: ("mm/s/s",), 0.3048: ("ft/s2", "feet/sec^2"), 0.0254: ("in/s2", "Inches/sec2"),
+    1e-6: ("um/s2", "µm/s²"), 1e-9: ("nm/s2", "nm/s**2"),
 }  # fmt: skip
 
 
@@ -234,6 +236,7 @@ def test_remarks_and_letters_name_columns_only_where_they_must():
     ("line", "units"),
     [
         ("units: cm/s2", ["cm/s2"]),
+        ("ACCELERATION TIME SERIES IN UNITS OF IN/SEC/SEC", ["IN/SEC/SEC"]),
         ("accelerations in units of g.", ["g"]),
         ("a in m/s², north", ["m/s²"]),
         ("roof acceleration [g]", ["g"]),

@@ -291,10 +291,34 @@ def test_a_comment_that_may_mean_something_else_asks_nothing_where_units_are_sai
     "remark",
     ["# dt = 0.005 s", "a_g  dt=5 ms", "# DT[s]=.005", "# time step: 5 ms", "# DT = 5 MSEC",
      "# dt_ms = 5", "# time step 0.005 s", "# sampling interval (sec) .005", "# fs = 0.2 kHz",
-     "# Sampling rate 200 Hz", "# Sampling Freq(Hz) = 200", "# 2 time steps, dt: 5.0E-3 and more"],
+     "# Sampling rate 200 Hz", "# Sampling Freq(Hz) = 200", "# 2 time steps, dt: 5.0E-3 and more",
+     "# dt = 0,005 s", "# dt=1/200 s", "# Sampling rate: 200,0 Hz", "# sampling rate = 0.005 sec",
+     "# Sampling rate: 5 ms", "# fs = 200 s^-1", "# dt = 0.005 s, sampling rate 200 Hz"],
 )  # fmt: skip
 def test_a_remark_gives_the_step_or_the_rate_in_its_unit(file, remark):
     assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
+
+
+@pytest.mark.parametrize(
+    "remarks", ["# raw data: sampling rate 500 Hz\n# dt = 0.01 s\n", "# fs = 500, dt = 0.01\n"]
+)
+def test_of_two_steps_that_are_stated_the_one_that_is_given_counts(file, remarks):
+    (problem,) = problems_of(file(f"{remarks}1\n2\n"))
+    assert problem == (
+        f"roof.csv:{remarks.count('#')}: found a step of 0.01 s and one of 0.002 s; enter the time"
+        " step dt, or correct one of them"
+    )
+    for dt_s in (0.002, 0.01):
+        assert read_record(file(f"{remarks}1\n2\n"), units="g", dt_s=dt_s).dt_s == dt_s
+    # Times decide.
+    assert read_record(file(f"{remarks}0,1\n0.01,2\n"), units="g").dt_s == 0.01
+
+
+@pytest.mark.parametrize("remark", ["dt = 1,953 ms", "Sampling rate: 1,000 Hz"])
+def test_a_comma_that_may_be_of_thousands_is_asked_about(file, remark):
+    (problem,) = problems_of(file(f"# {remark}\n1\n2\n"))
+    number = remark.split()[-2]
+    assert problem == f"roof.csv:1: found '{number}'; enter a number with a decimal point"
 
 
 def test_a_rate_whose_exponent_has_no_digits_is_read_without_it(file):

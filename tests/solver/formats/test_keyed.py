@@ -146,6 +146,26 @@ def test_a_unit_that_is_not_stated_is_that_of_the_caller(file):
     assert read_record(path, units="gal").a_mps2 == pytest.approx(0.01 * np.array(WAVE))
 
 
+def test_values_that_fill_their_columns_are_the_first_ones_too(file):
+    # Fields of 14 columns, whose first lines are below zero and have no blank.
+    values = [-1e-5 * (k + 1) for k in range(10)] + [value / 100.0 for value in WAVE]
+    fields = [f"{value:14.7E}" for value in values]
+    rows = ["".join(fields[k : k + 5]) for k in range(0, len(fields), 5)]
+    assert " " not in rows[0].strip()
+    count = f"Number of Data                : {len(values)}\n"
+    head = (
+        "Event Date & Time             : 2001-01-01 01:01:01\n"
+        "Orientation                   : NS\n"
+        "Time Increment (s)            : 0.005\n"
+        f"{count}PGA (m/s/s)                   : {max(values):.7E}\n"
+        "Acceleration time series in m/s/s\n"
+    )
+    for above in (head, head.replace(count, "Units: m/s/s\n")):
+        record = read_motion_file(file(above + "\n".join(rows) + "\n")).channel()
+        assert (record.name, record.dt_s) == ("NS", 0.005)
+        assert record.a_mps2 == pytest.approx(np.array(values), abs=1e-7)
+
+
 def test_a_file_of_peer_that_has_such_lines_is_one_of_peer(file):
     head = (
         "PEER STRONG MOTION DATABASE RECORD\nCOMPONENT: 180\n"
