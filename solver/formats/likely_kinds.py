@@ -20,6 +20,7 @@ _AS_READ = f"use the file of values that it reads, or {COLUMNS}"
 _TEXTS = (
     (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
     (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
+    (re.compile(r"\{\\rtf"), "a text of a word processor", "save it as plain text"),
     (re.compile(r"""\s*(?:\{|\[\s*+(?:[\[{"'\d-]|$))"""), "JSON", COLUMNS),
     (re.compile(r"TIMESERIES \S+_"), "TSPAIR or SLIST of EarthScope", _CONVERT),
     (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),

@@ -15,6 +15,7 @@ from solver.formats.numbers import DECIMAL_COMMA, NUMBER
 from solver.formats.phrases import Kind, parse
 
 _SEP = re.compile(r'"?sep=([,;\t| ])"?', re.IGNORECASE)
+_COMMENT = re.compile(r"^\s*(?:%|//|!)")
 _QUOTED = re.compile(r'"[^"]*" *([,;\t|])?')
 _GROUPED = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}", re.ASCII)
 _COUNT_AND_STEP = re.compile(r"(\d{1,9})[\s,;]++(0?\.\d+)", re.ASCII)
@@ -28,7 +29,8 @@ def plain_lines(lines: Sequence[str]) -> list[str]:
     Separators between quoted fields become semicolons; a decimal comma becomes a point where the
     columns are separated by something else and no number has a point.
     """
-    plain = list(lines)
+    # As MATLAB, C and Fortran write comments.
+    plain = [_COMMENT.sub("#", line) for line in lines]
     first = next((i for i, line in enumerate(plain) if line.strip()), 0)
     separator = ""
     if plain and (match := _SEP.fullmatch(plain[first].strip(" "))):
@@ -111,9 +113,13 @@ def _with_count_and_step(lines: list[str]) -> list[str]:
 
 def _without_decimal_commas(lines: list[str]) -> list[str]:
     near = [lines[i] for i in _rows(lines)]
-    mark = ";" if any(";" in line for line in near) else "\t"
-    body = [line for line in near if mark in line and line.lstrip()[:1] in "+-.0123456789"]
-    fields = [field.strip() for field in mark.join(body).split(mark)]
+    # The comma of 0,12 alone may separate columns: there is another mark in each row.
+    mark = next((mark for mark in ";\t" if any(mark in line for line in near)), None)
+    rows = [line.strip(" ") for line in near if line.lstrip()[:1] in "+-.0123456789"]
+    body = [line.split(mark) for line in rows if len(line.split(mark)) > 1]
+    if not mark and len(body) < len(rows):
+        return lines
+    fields = [field.strip() for field in chain.from_iterable(body)]
     commas = [field for field in fields if "," in field]
     if (
         not commas

@@ -234,7 +234,7 @@ def _bytes(path: Path) -> bytes:
 
 
 def _lines(name: str, data: bytes) -> list[str]:
-    text = _decode(name, data)
+    text = _decode(name, data).replace("\u2212", "-")
     if "\r" in text:
         text = _LINE_END.sub("\n", text)
     count = text.count("\n") + 1

@@ -17,7 +17,15 @@ import numpy as np
 from solver.errors import InputError, Problem, raise_any
 from solver.formats import phrases
 from solver.formats.channels import motion_file
-from solver.formats.columns import SIDE_BY_SIDE, magnitudes, pairs, remedy, rising
+from solver.formats.columns import (
+    SIDE_BY_SIDE,
+    counting,
+    magnitudes,
+    pairs,
+    remedy,
+    rising,
+    widening,
+)
 from solver.formats.headings import Layout, laid_out
 from solver.formats.likely_kinds import likely_text
 from solver.formats.numbers import (
@@ -53,6 +61,10 @@ def read(source: Source) -> MotionFile:
     layout = laid_out(source)
     source = layout.source
     table = _table(layout)
+    if [heading.kind for heading in layout.headings[1:2]] == [Kind.TIME] and 0 in counting(table):
+        # Before the times, pandas and R write the number of the row.
+        layout = replace(layout, headings=layout.headings[1:], width=layout.width - 1)
+        table = table[:, 1:]
     _check_count(layout, table)
     _check_last(layout)
     if layout.headings and (named := phrases.of_a_spectrum(layout.headings)):
@@ -112,8 +124,6 @@ def _table(layout: Layout) -> Floats:
         table = _read_slowly(layout)
     if not layout.headings and (paired := pairs(table.ravel(), layout.width)) is not None:
         return paired
-    if len(table) < 2:
-        raise InputError(f"{source.name}: found 1 sample; enter at least 2")
     if layout.misfit:
         raise InputError(f"{source.at(layout.heading_index)}: {layout.misfit}")
     if layout.width > 2 and not layout.headings:
@@ -121,6 +131,8 @@ def _table(layout: Layout) -> Floats:
             f"{source.at(layout.first)}: found {layout.width} columns without a heading;"
             f" {remedy(table)}"
         )
+    if len(table) < 2:
+        raise InputError(f"{source.name}: found 1 sample; enter at least 2")
     return table
 
 
@@ -245,6 +257,12 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
     # A record may be matched to a spectrum: only a spectrum is nowhere below zero.
     is_positive = len(numbers) > _FEW and bool((numbers >= 0.0).all())
     is_headed = any(heading.kind is Kind.ACCELERATION for heading in layout.headings)
+    if is_positive and table.shape[1] > 1 and not is_headed and widening(table[:, 0]):
+        raise InputError(
+            f"{layout.source.at(layout.first)}: found no value below zero, and steps in the first"
+            " column that widen: this is a spectrum or a curve, no record; use accelerations by"
+            " time, or a heading such as time_s,acc_g if they are"
+        )
     is_said = is_headed or any(phrases.is_of_acceleration(line) for _, line in layout.remarks)
     for index, line in layout.remarks:
         place = layout.source.at(index)

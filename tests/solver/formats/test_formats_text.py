@@ -38,6 +38,9 @@ def problems_of(path, **how):
         '"Time";"Acc, g"\r\n"0,00";"0,1"\r\n"0,02";"-0,2"\r\n"0,04";"0,3"\r\n',
         "sep=|\nt|a\n0.00|0.1\n0.02|-0.2\n0.04|0.3\n",
         "Time\tAcc\nms\tg\n0\t0.1\n20\t-0.2\n40\t0.3\n",
+        "% t a\n! made by hand\n// g\n0.00 0.1\n0.02 -0.2\n0.04 0.3\n",
+        "Zeit Beschl\n0,00 0,1\n0,02 -0,2\n0,04 0,3\n",
+        "t,a\n0.00,0.1\n0.02,\u22120.2\n0.04,0.3\n",
         b"0.00,0.1\r\r\n0.02,-0.2\r\r\n0.04,0.3\r\r\n" + bytes(500),
     ],
 )
@@ -285,6 +288,28 @@ def test_a_comment_that_may_mean_something_else_asks_nothing_where_units_are_sai
     for remark in ("converted from gal", "PGA [cm/s2] 300", "units: g or gal"):
         record = read_record(file(f"# {remark}\ntime_s,acc_g\n0,1\n1,2\n"))
         assert record.a_mps2.tolist() == [G, 2.0 * G]
+
+
+def test_row_numbers_before_times_are_left_out(file):
+    rows = "".join(f"{k},{0.01 * k:.2f},{(-1) ** k}\n" for k in range(12))
+    for head in (",time_s,acc_g", '"","time_s","acc_g"', "No,Time (s),Acc (g)"):
+        record = read_record(file(f"{head}\n{rows}"))
+        assert (record.dt_s, len(record.a_mps2), record.a_mps2[1]) == (0.01, 12, -G)
+
+
+PERIODS = (0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1, 1.5, 2, 3, 5)
+
+
+@pytest.mark.parametrize("head", ["", "# site 1\n", "iml,poe\n"])
+def test_a_curve_over_widening_steps_is_no_record(file, head):
+    rows = "".join(f"{period:g},{0.3 / (1 + period):.4f}\n" for period in PERIODS)
+    (problem,) = problems_of(file(head + rows))
+    assert problem == (
+        f"roof.csv:{1 + bool(head)}: found no value below zero, and steps in the first column that"
+        " widen: this is a spectrum or a curve, no record; use accelerations by time, or a heading"
+        " such as time_s,acc_g if they are"
+    )
+    assert read_record(file(f"time_s,acc_g\n{rows}")).name == "roof.csv"
 
 
 @pytest.mark.parametrize(
