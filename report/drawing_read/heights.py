@@ -14,14 +14,18 @@ from typing import NamedTuple
 from report.project.read.typed_text import plain_marks
 from report.text.units import LENGTHS
 
-_NUMBER, _SHARE = r"\d{1,6}(?:\.\d{1,6})?", r"\d{1,2}/[1-9]\d?"
+_NUMBER, _SHARE = r"(?:\d{1,6}(?:\.\d{1,6})?|\.\d{1,6})", r"\d{1,2}/[1-9]\d?"
+# Between feet and inches, as in `3 ft, 6 in`; behind `3 ft, 900 lb` is another quantity.
+_COMMA = r"(?:,(?= ?(?:\d|1[01])(?:\.\d+|[ -]\d+/\d+)? ?(?:\"|in)))?"
 _TOP = r"(?:TO[CPW]|TOP(?: OF(?: [A-Z]{1,12}){1,2})?|T(?:\.O\.(?:[A-Z]\.)?|/O?) ?(?:[A-Z]{1,12})?)"
 _ABOUT = r"(?:\+/-|[+±~])"
 _UNIT = r"(?P<unit>inches|inch|in|feet|ft|mm|cm|m)\.?"  # in brackets behind a word: HEIGHT (IN): 48
 _KEYWORD = re.compile(
     rf"(?<!\w)(?:(HT|HGT|HEIGHT(?: ABOVE ROOF)?|(?:{_TOP} ?)?EL(?:EV(?:ATION)?)?|{_TOP})(?: OF)?"
-    rf"(?:\.? ?[(\[]{_UNIT}[)\]])?[.:=@ ]*(?:{_ABOUT} ?)?|([HZ]) ?[=:] ?(?:{_ABOUT} ?)?)(?=\d)"
-    rf"|(?:(?<=[\s(])|^)({_ABOUT}) ?(?=\d)",
+    rf"(?:\.? ?[(\[]{_UNIT}[)\]])?[.:=@ ]*(?<![:=@ ]\.)(?:{_ABOUT} ?)?"
+    rf"|([HZ]) ?[=:] ?(?:{_ABOUT} ?)?)"
+    # The point of `HT.42` is that of the word, and that of `HT .42` a decimal one.
+    rf"(?=\.?\d)|(?:(?<=[\s(])|^)({_ABOUT}) ?(?=\.?\d)",
     re.IGNORECASE,
 )
 # What may be a height as well, before or behind a number with a unit: it is said.
@@ -36,20 +40,25 @@ _ALSO_A_NAME = ("TOP", "TOC", "TOW", "T/", "+", "+/-", "±", "~")  # before no u
 _DIGITS = r"\d(?:[\d .'/#^-]|,(?=\d)){0,16}?"
 # As sizes of equipment are written: a number with its unit before a lone H.
 _BEFORE = re.compile(
-    rf"(?<![\w./'\"#^-])(?P<value>(?:{_DIGITS}(?:ft|feet)\.?[ -]{{0,3}})?"
+    rf"(?<![\w./'\"#^-])(?P<value>(?:{_DIGITS}(?:'|(?:ft|feet)\.?){_COMMA}[ -]{{0,3}})?"
     rf"{_DIGITS}(?:['\"]|(?:ft|feet|inches|inch|in|mm|cm|m)\.?))"
     r"[ -]?\(?(?:H|HT|HIGH|TALL|ABOVE|ABV|A\.?(?:F\.?)?R)\b(?![.:= ]*\d)",
     re.IGNORECASE,
 )
+_RANGE = re.compile(r"\d\S* (?:TO|OR|-) ?$", re.IGNORECASE)
 _OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12}+ ?+[WLD]?+ ?+[x×] ?+){1,3}+$", re.IGNORECASE)
 _METRIC = re.compile(r"(?<![\w.,'\"/-])(\d{1,6}),(\d{1,2})(?= ?(?:mm|cm|m)\b)", re.IGNORECASE)
+_OF_A_FLOOR = re.compile(
+    r" ?\(?(?:A\.?F\.?[FG]|(?:ABOVE|ABV\.?) (?:FIN|FLOOR|GRADE))", re.IGNORECASE
+)
 _VALUE = re.compile(
-    rf"(?:(?P<feet>{_NUMBER})(?: (?P<of_foot>{_SHARE}))?[ -]?(?:'|(?:ft|feet)\b\.?)[ -]{{0,3}}"
+    rf"(?:(?P<feet>{_NUMBER})(?: (?P<of_foot>{_SHARE}))?[ -]?(?:'|(?:ft|feet)\b\.?)"
+    rf"{_COMMA}[ -]{{0,3}}"
     rf"(?:(?P<of_inch>{_SHARE})[ -]?\")?)?"
     rf"(?:(?P<number>{_NUMBER})(?:[ -](?P<share>{_SHARE}))?"
-    r"(?:[ -]?(?P<unit>\"|(?:inches|inch|in|mm|cm|m)(?![a-z]))\.?)?)?"
+    r"(?:[ -]?[(\[]?(?P<unit>\"|(?:inches|inch|in|mm|cm|m)(?![a-z]))\.?[)\]]?)?)?"
     # Nothing of the number is left: neither `42x60` nor `42-48` nor `42 1/2` is a height of 42.
-    r"(?![\w./'\"#^{\\]|,\d|\s{0,3}[-/]\s{0,3}\d|\s{1,3}\d{1,2}/\d)",
+    r"(?![\w./'\"#^{\\°´`%]|±[\"']|,\d|\s{0,3}(?:[-/]|TO|OR)\s{0,3}\d|\s{1,3}\d{1,2}/\d)",
     re.IGNORECASE,
 )
 _HEIGHT_UNITS = (
@@ -73,14 +82,16 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
         match, start = _VALUE.match(text, word.end()), word.start()
         keyword = (word[1] or word[3] or word[4]).strip()
     elif before := _BEFORE.search(text):
-        match, start, keyword = _VALUE.fullmatch(before["value"]), before.start(), "H"
+        is_range = _RANGE.search(text[: before.start()])
+        match = None if is_range else _VALUE.fullmatch(before["value"])
+        start, keyword = before.start(), "H"
     else:
         is_like = _LIKE_ONE.search(text) and _LENGTH.search(text)
         return text, Height(math.nan, "", False) if is_like else None
     name = _OTHER_SIZES.sub("", text[:start]).lstrip(" ,;:-").rstrip(" ,;:-(@")
     name = name if ")" in name else name.lstrip("(")  # `(N) RTU-1` is one
     unclear = Height(math.nan, keyword.upper(), False)
-    if not match or not match[0]:
+    if not match or not match[0] or _OF_A_FLOOR.match(text, match.end()):
         return name, unclear
     before_colon = (word and word["unit"]) or ""
     unit = match["unit"] or ('"' if match["feet"] else before_colon)

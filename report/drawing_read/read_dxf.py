@@ -18,7 +18,8 @@ from typing import Any, NamedTuple
 
 import shapely
 from ezdxf.document import Drawing as Document
-from ezdxf.tools.text import plain_mtext
+from ezdxf.lldxf.encoding import decode_dxf_unicode
+from ezdxf.tools.text import plain_mtext, plain_text
 from ezdxf.xclip import XClip
 
 from report.drawing.plan_dxf import APPLICATION
@@ -52,6 +53,8 @@ JOIN_M = 0.005
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 _HEIGHTS = ("HT", "HGT", "HEIGHT", "EL", "ELEV", "ELEVATION")
 
+# `%%034` is a quotation mark.
+_LETTER = re.compile(r"%%(0[3-9]\d|1[01]\d|12[0-6])", re.ASCII)
 # A code of a text of lines, with what it stacks: one above the other, with or without a line.
 _STACKED = re.compile(r"\\(?:S((?:\\.|[^;\\])*);?|.)", re.DOTALL)
 _STACKS, _ESCAPED = re.compile(r"(?<!\\)[\^/#]"), re.compile(r"\\([\^/#;])")
@@ -378,11 +381,15 @@ def _lines(entity: Any) -> list[str]:
     """Return the lines of a text or an attribute that say something."""
     if entity.dxftype() == "ATTRIB" and entity.has_embedded_mtext_entity:
         entity = entity.virtual_mtext_entity()
-    if entity.dxftype() == "MTEXT":
-        # What the library calls fast takes a time that grows as the square of the length.
-        texts = plain_mtext(_STACKED.sub(_fraction, entity.text), split=True)
-    else:
-        texts = [entity.plain_text() if entity.dxftype() == "TEXT" else entity.dxf.text]
+    is_mtext = entity.dxftype() == "MTEXT"
+    written = decode_dxf_unicode(entity.text if is_mtext else entity.dxf.text)
+    written = _LETTER.sub(lambda code: chr(int(code[1])), written)
+    # What the library calls fast takes a time that grows as the square of the length.
+    texts = (
+        plain_mtext(_STACKED.sub(_fraction, written), split=True)
+        if is_mtext
+        else [plain_text(written)]
+    )
     lines = (" ".join(_printable(text).split()) for text in texts)
     return [line for line in lines if line]
 

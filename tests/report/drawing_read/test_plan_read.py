@@ -287,6 +287,13 @@ UNIT_M = 1.0
         ('T/PARAPET 30"', "", 30 * INCH, True),
         ('TOP OF EQUIPMENT CURB 18"', "", 18 * INCH, True),
         ('HT ~48"', "", 48 * INCH, True),
+        ("HT .5'", "", 0.5 * FT, True),
+        ("HT. .75 m", "", 0.75, True),
+        ("HT.3'-6\"", "", 3.5 * FT, True),
+        ("RTU-2 4 ft, 6 in. high", "RTU-2", 4.5 * FT, True),
+        ("HT 4', 6\"", "", 4.5 * FT, True),
+        ("HT 48 (IN.)", "", 48 * INCH, True),
+        ('HT 48"±', "", 48 * INCH, True),
     ],
 )
 def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value_m, has_unit):
@@ -301,7 +308,9 @@ def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value
     "text", ["HT 42x60", "HT 42-48 in", "HT 42.5.1", "HEIGHT 12345678", "HT 42 yd", "HT 1,200 mm",
              'RTU 1,42" HIGH', "TANK 1,200 mm high", 'HT 481#2"', 'RTU 481#2" HIGH', 'HT 481^2"',
              "HT 42a", r'HT 48{\S1#2;}"', 'HT 48" 1/2', '60x48"H', 'H 48"', 'TOP/CURB 18"',
-             '48" A.F.F.', "RTU-1 +48", "EF-1 + 2"]
+             '48" A.F.F.', "RTU-1 +48", "EF-1 + 2", 'HT 48" A.F.F.', 'HT 48" ABOVE GRADE',
+             'HT 48±"', "HT 48´´", "HT 48%%34", 'HT 42" TO 48"', 'HT 42" OR 48"',
+             'RTU 42" TO 48" HIGH', "HT 42 to 48"]
 )  # fmt: skip
 def test_a_number_that_is_not_read_whole_is_no_height(text):
     assert math.isnan(read_line(text, UNIT_M)[1].value_m)
@@ -314,6 +323,18 @@ def test_a_number_that_is_not_read_whole_is_no_height(text):
 )  # fmt: skip
 def test_a_number_that_no_word_calls_a_height_is_none(text):
     assert read_line(text, UNIT_M)[1] is None
+
+
+@pytest.mark.parametrize("text", ["HT 48%%034", r"HT 4\U+0038\U+2033", 'HT %%u48"%%u', "HT %%p4'"])
+def test_codes_of_letters_in_a_text_or_an_attribute_are_letters(tmp_path, text):
+    sketch = Sketch()
+    sketch.ring("OBJECT", UNIT_FT, text)
+    block = sketch.document.blocks.new("RTU")
+    block.add_lwpolyline([(x + 20, y) for x, y in UNIT_FT], close=True)
+    insert = sketch.space.add_blockref("RTU", (0, 0), dxfattribs={"layer": "OBJECT"})
+    insert.add_attrib("HEIGHT", text.removeprefix("HT "), (90, 60))
+    heights = [item.height_m for item in plan(sketch.saved(tmp_path)).objects]
+    assert heights == pytest.approx([48 * INCH] * 2)
 
 
 def test_the_first_line_is_the_name_and_the_first_height_counts(tmp_path):
