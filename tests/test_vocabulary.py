@@ -74,7 +74,7 @@ def found_in(texts):
     ]
 
 
-KEPT = ("known-errors.md", "architecture.md", "options.py")
+KEPT = ("known-errors.md", "architecture.md", "overrides.py")
 """Pages about older versions and about the code, and names that earlier workbooks contain."""
 
 

@@ -11,18 +11,14 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import shapely
 from ezdxf.document import Drawing as Document
-from ezdxf.lldxf.encoding import decode_dxf_unicode
-from ezdxf.tools.text import plain_mtext, plain_text
 from ezdxf.xclip import XClip
 
-from report.drawing.plan_dxf import APPLICATION
 from report.drawing_read.areas import (
     HATCHES,
     boundaries,
@@ -35,9 +31,9 @@ from report.drawing_read.areas import (
 from report.drawing_read.closed_lines import join
 from report.drawing_read.curves import CURVES, MAX_POINTS, curve
 from report.drawing_read.dxf_file import DAMAGED, MAX_ENTITIES, UNITS, limit, loaded, other_unit
+from report.drawing_read.dxf_texts import attributes, lines_of_text, name_by_report, printable
 from report.drawing_read.roof_drawing import DrawnOutline, RoofDrawing, Unread, Words
 from report.project.model.shapes import Point, Polygon, ring
-from report.text.typed_letters import UNPRINTABLE, trimmed
 from report.text.units import LENGTHS
 from solver.errors import InputError
 
@@ -51,13 +47,6 @@ SAGITTA_M = 0.003
 JOIN_M = 0.005
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
-_HEIGHTS = ("HT", "HGT", "HEIGHT", "EL", "ELEV", "ELEVATION")
-
-# `%%034` is a quotation mark.
-_LETTER = re.compile(r"%%(0[3-9]\d|1[01]\d|12[0-6])", re.ASCII)
-# A code of a text of lines, with what it stacks: one above the other, with or without a line.
-_STACKED = re.compile(r"\\(?:S((?:\\.|[^;\\])*);?|.)", re.DOTALL)
-_STACKS, _ESCAPED = re.compile(r"(?<!\\)[\^/#]"), re.compile(r"\\([\^/#;])")
 
 
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
@@ -128,7 +117,7 @@ def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str])
             return
         # That of `report` has a title block alone.
         if not all(line.is_ours for line in drawing.lines[before:]):
-            yield _printable(name)
+            yield printable(name)
 
 
 def _check_expanded(count: int) -> None:
@@ -138,12 +127,6 @@ def _check_expanded(count: int) -> None:
             f"its blocks expand to more than {MAX_ENTITIES:,} entities; explode those of"
             " the roof plan and save it alone"
         )
-
-
-@lru_cache(maxsize=1024)  # thousands of entities are on a few layers
-def _printable(text: object) -> str:
-    """Return a text of the drawing without what no terminal and no page may print."""
-    return trimmed(UNPRINTABLE.sub("", str(text)))
 
 
 _Clip = tuple[list[Point], bool]
@@ -191,7 +174,7 @@ class _Reader:
         """Add an entity to the drawing; of a block, what it shows, by the handle of the block."""
         self.entities += 1
         _check_expanded(self.entities)
-        kind, layer = entity.dxftype(), _printable(entity.dxf.get("layer", "0"))
+        kind, layer = entity.dxftype(), printable(entity.dxf.get("layer", "0"))
         handle = str(entity.dxf.get("handle") or block.handle)
         if kind != "INSERT":
             self.drawing.counts[layer, kind] += 1
@@ -227,7 +210,7 @@ class _Reader:
         points, is_closed = outline
         self.points += len(points)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")
-        own_name = _own_name(entity)
+        own_name = name_by_report(entity)
         line = DrawnOutline(handle=handle, layer=layer, name=own_name or block.name,
                             shape=Polygon(tuple(points)), is_ours=bool(own_name),
                             heights=block.heights)  # fmt: skip
@@ -254,7 +237,7 @@ class _Reader:
             return f"a {kind} without an area"
         self.points += sum(len(shapely.get_coordinates(area)) for area in areas)
         limit(self.points, MAX_CURVE_POINTS, "points of curves")
-        own_name = _own_name(entity)
+        own_name = name_by_report(entity)
         line = DrawnOutline(handle=handle, layer=layer, name=own_name or block.name,
                             shape=Polygon(()), is_ours=bool(own_name),
                             heights=block.heights)  # fmt: skip
@@ -279,6 +262,8 @@ class _Reader:
             for points in rings:
                 area = shapely.union_all(polygons([points]))
                 near = [(solids[k], layers[k]) for k in tree.query(area, predicate="intersects")]
+                # A hatch over a closed line fills it: its outline would be the same array a second
+                # time.
                 if is_fill(area, line.layer.casefold(), near, gap):
                     self._leave(line.handle, line.layer, f"a {kind} over a closed line")
                 elif reason := self._close(replace(line, shape=Polygon(tuple(points))), kind):
@@ -319,7 +304,7 @@ class _Reader:
     def _take_insert(self, insert: Any, layer: str, handle: str, outer: _Block) -> str:
         """Add what a block shows, or return why; what it does not say, the one around it says."""
         depth = outer.depth + 1
-        block_of, quoted_name = insert.block(), f"'{_printable(insert.dxf.name)}'"
+        block_of, quoted_name = insert.block(), f"'{printable(insert.dxf.name)}'"
         if block_of is None:
             return f"a block that the drawing does not have: {quoted_name}"
         if block_of.block.is_xref or block_of.block.is_xref_overlay:
@@ -328,7 +313,7 @@ class _Reader:
             insert.dxf.zscale = 1.0  # a plan has no use of it
         if depth > MAX_DEPTH:
             raise InputError(f"block {quoted_name}: nested more than {MAX_DEPTH} deep; explode it")
-        name, heights = _attributes(insert)
+        name, heights = attributes(insert)
         times = (max(int(insert.dxf.get(key, 1)), 1) for key in ("row_count", "column_count"))
         count, clip = math.prod(times), _clip(insert)
         _check_expanded(count)
@@ -368,38 +353,13 @@ class _Reader:
         limit(self.letters, MAX_LETTERS, "letters of texts")
         placed = None if kind == "MTEXT" else entity.get_placement()[1]
         x, y, _ = placed or entity.dxf.insert
-        lines = _lines(entity)
+        lines = lines_of_text(entity)
         if lines and math.isfinite(x) and math.isfinite(y):
             self.drawing.texts.append(
                 Words(layer=layer, text=lines[0], at=(float(x), float(y)), others=tuple(lines[1:]),
-                      of=_own_name(entity))
+                      of=name_by_report(entity))
             )  # fmt: skip
         return ""
-
-
-def _lines(entity: Any) -> list[str]:
-    """Return the lines of a text or an attribute that say something."""
-    if entity.dxftype() == "ATTRIB" and entity.has_embedded_mtext_entity:
-        entity = entity.virtual_mtext_entity()
-    is_mtext = entity.dxftype() == "MTEXT"
-    written = decode_dxf_unicode(entity.text if is_mtext else entity.dxf.text)
-    written = _LETTER.sub(lambda code: chr(int(code[1])), written)
-    # What the library calls fast takes a time that grows as the square of the length.
-    texts = (
-        plain_mtext(_STACKED.sub(_fraction, written), split=True)
-        if is_mtext
-        else [plain_text(written)]
-    )
-    lines = (" ".join(_printable(text).split()) for text in texts)
-    return [line for line in lines if line]
-
-
-def _fraction(code: re.Match[str]) -> str:
-    """Return a stacked fraction behind a blank, and any other code as it is."""
-    if code[1] is None:
-        return code[0]
-    parts = (_ESCAPED.sub(r"\1", part).strip() for part in _STACKS.split(code[1], maxsplit=1))
-    return f" {'/'.join(filter(None, parts))}"
 
 
 def _clip(insert: Any) -> _Clip | None:
@@ -411,22 +371,3 @@ def _clip(insert: Any) -> _Clip | None:
     path = clip.get_block_clipping_path()
     corners = insert.matrix44().transform_vertices([(p.x, p.y, 0.0) for p in path.inner_polygon()])
     return [(float(p.x), float(p.y)) for p in corners], path.is_inverted_clip
-
-
-def _attributes(insert: Any) -> tuple[str, tuple[str, ...]]:
-    """Return what the attributes of a block say: its name, and heights with their tags."""
-    values = {str(a.dxf.tag).casefold(): next(iter(_lines(a)), "") for a in insert.attribs}
-    texts = [values.pop(tag.casefold(), "") for tag in _HEIGHTS]
-    heights = tuple(f"{tag} {text}" for tag, text in zip(_HEIGHTS, texts, strict=True) if text)
-    # The only other one is the name, whatever its tag is.
-    only = next(iter(values.values())) if len(values) == 1 else ""
-    named = filter(None, map(values.get, ("name", "id", "tag", "mark")))
-    return next(named, only), heights
-
-
-def _own_name(entity: Any) -> str:
-    """Return the name that `report` wrote with a line or a text."""
-    if not entity.has_xdata(APPLICATION):
-        return ""
-    tags = entity.get_xdata(APPLICATION)
-    return next((_printable(tag.value) for tag in tags if tag.code == 1000), "")

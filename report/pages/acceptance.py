@@ -1,4 +1,4 @@
-"""The limits on the motions, their strong motion and correlations, and the events of records.
+"""Acceptance of the motions: the limits on them, their strong motion and correlations.
 
 Formats finished results: `solver.records.acceptance` has the limits. Read `acceptance_table`.
 """
@@ -6,7 +6,7 @@ Formats finished results: `solver.records.acceptance` has the limits. Read `acce
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import partial
 
 from report.assessment.checks.check import MOTIONS_ID, THIS_PROGRAM
@@ -15,7 +15,6 @@ from report.assessment.support.response_spectra import LEAST_MEAN, Spectra
 from report.document.columns import plain, text, words
 from report.document.tables import Column, Table, by_place, listed, stamp
 from report.pages.parts import MOTION_ROWS, PackageData
-from report.project.model.motion_input import MotionInput
 from report.text.units import number
 from solver.records.acceptance import Acceptance, MotionStrength
 
@@ -83,13 +82,3 @@ def strength_table(package: PackageData) -> Table:
     columns.append((text("Hold", "s", 0.9), hold))
     motions = package.assessment.acceptance.motions
     return listed(motions, columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
-
-
-def events(motions: Sequence[MotionInput]) -> Iterator[Sequence[str]]:
-    """Yield the motions of which anything is given with event, magnitude, distance and Vs30."""
-    for row in motions:
-        numbers = (row.magnitude, row.distance_km, row.v_s30_mps)
-        texts = [row.event, *("" if value is None else f"{value:g}" for value in numbers)]
-        # What is generated has no event; a table of dashes would say nothing.
-        if any(texts):
-            yield row.id, *(text or "not entered" for text in texts)

@@ -16,7 +16,7 @@ from report.assessment.support.response_spectra import Departure, Spectra, depar
 from report.document.columns import centered, length, plain, text, words
 from report.document.tables import Column, Table, headed, listed
 from report.motions.history import OWN, PreparedMotion
-from report.pages.acceptance import acceptance_table, events, lowest_between, strength_table
+from report.pages.acceptance import acceptance_table, lowest_between, strength_table
 from report.pages.building import building_part
 from report.pages.parts import MOTION_ROWS, PackageData
 from report.pages.symbols import with_symbols
@@ -143,7 +143,13 @@ def _events_table(package: PackageData) -> Table | None:
         ("Motion", 1), ("Event", 3), ("M", 1, "right"), ("R", 1, "right", "km"),
         (symbol("V_s30"), 1, "right", "m/s"),
     )  # fmt: skip
-    rows = list(events(package.data.motions))
+    rows: list[Sequence[str]] = []
+    for motion in package.data.motions:
+        numbers = (motion.magnitude, motion.distance_km, motion.v_s30_mps)
+        texts = [motion.event, *("" if value is None else f"{value:g}" for value in numbers)]
+        # What is generated has no event; a table of dashes would say nothing.
+        if any(texts):
+            rows.append((motion.id, *(text or "not entered" for text in texts)))
     return headed(*columns, rows=rows, kind="compact", whole_rows=MOTION_ROWS) if rows else None
 
 

@@ -15,15 +15,8 @@ from report.assessment.design.clearances import ClearanceCheck, beside
 from report.assessment.design.rule_set import MEANING
 from report.assessment.design.verdict import Verdict
 from report.results.design_sheet import DESIGN, InputCells
-from report.results.sheet_columns import (
-    TOP,
-    Pages,
-    SheetColumn,
-    SheetLayout,
-    SheetRow,
-    up_column,
-    write_live,
-)
+from report.results.sheet_columns import SheetColumn, SheetLayout, SheetRow, up_column, write_live
+from report.results.sheet_pages import TOP, Pages
 from report.text.units import round_up
 from solver.rules.provisions import SEPARATION_KEYS
 

@@ -20,9 +20,7 @@ from report.assessment.design.verdict import Verdict, worst
 from report.project.model.choices import Direction, Statistic, YesNo
 from report.results.list_sheets import RUNS
 from report.results.sheet_columns import (
-    TOP,
     Cells,
-    Pages,
     SheetColumn,
     SheetLayout,
     SheetRow,
@@ -30,6 +28,7 @@ from report.results.sheet_columns import (
     up_column,
     write_live,
 )
+from report.results.sheet_pages import TOP, Pages
 from report.runs import MotionRun
 from solver.model import INCH_M
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS, Basis, PrescriptiveBasis

@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema
 
 from report.project.model import ProjectInput
-from report.project.model.choices import Frozen
+from report.project.model.values import Frozen
 from report.project.workbook import SECTION, SECTIONS
 from report.results.results_model import Results
 

@@ -15,12 +15,16 @@ from report.assessment.assessment import Assessment
 from report.assessment.checks.check import condition
 from report.assessment.revision_changes import Change, ChangeKind, Changes
 from report.project.check.covered import COVERED
-from report.project.model.choices import Direction, Frozen, YesNo
+from report.project.model.choices import Direction, YesNo
 from report.project.model.input_rows import Place
+from report.project.model.values import Frozen
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry, SheetSection
+from report.results.array_results import ArrayResult
+from report.results.clearance_results import ClearanceResult
+from report.results.result_base import ResultModel
 from report.results.results_json import GIVE
-from report.results.results_model import ArrayResult, ClearanceResult, Compared, ResultModel
+from report.results.results_model import Compared
 from report.results.rows import compared
 from report.text.unit_format import UnitFormat
 from report.text.units import in_us_order, no_less, ratio

@@ -31,7 +31,40 @@ from report.project.model.input_rows import Place
 from report.project.model.motion_input import BuildingInput
 from report.project.read.documents import Document
 from report.provenance.release import version
-from report.results import results_model as model
+from report.results.array_results import (
+    ArrayResult,
+    LinkedResult,
+    LinkedRunResult,
+    LowVelocityResult,
+    PeakResult,
+    RunResult,
+    TippingResult,
+    UpliftResult,
+)
+from report.results.check_results import CheckResult, FindingResult, RemedyResult
+from report.results.clearance_results import (
+    ClearanceResult,
+    GivenResult,
+    LowVelocity,
+    NeighborResult,
+)
+from report.results.result_base import LengthUnitResult, PrintedResult
+from report.results.results_model import SCHEMA_VERSION, Compared, Results
+from report.results.source_results import (
+    DocumentResult,
+    MotionResult,
+    RecordResult,
+    RoofResult,
+    WorkbookResult,
+)
+from report.results.uncertainty_results import (
+    AnglesResult,
+    CumulativeResult,
+    MarginResult,
+    TurnedResult,
+    UncertaintyResult,
+    VariationResult,
+)
 from report.runs import MotionRun, OrientedRun
 from report.text.amounts import Amount
 from report.text.names import joined
@@ -41,15 +74,15 @@ from solver.model import Motion
 from solver.rules.provisions import AnalysisValue
 
 
-def results(assessment: Assessment, evidence: Evidence) -> model.Results:
+def results(assessment: Assessment, evidence: Evidence) -> Results:
     """Return an assessment and its evidence as one document."""
     source, shaking, project = assessment.source, assessment.shaking, assessment.project
     slow = assessment.low_velocity
     pairs = zip(shaking.motions, shaking.prepared, strict=True)
-    return model.Results(
-        schema_version=model.SCHEMA_VERSION,
+    return Results(
+        schema_version=SCHEMA_VERSION,
         roofslip_version=version(),
-        workbook=model.WorkbookResult(name=source.path.name, sha256=source.sha256),
+        workbook=WorkbookResult(name=source.path.name, sha256=source.sha256),
         records=tuple(map(_record, shaking.records)),
         documents=tuple(map(_document, source.documents)),
         motions=tuple(_motion(motion, prepared) for motion, prepared in pairs),
@@ -66,7 +99,7 @@ def results(assessment: Assessment, evidence: Evidence) -> model.Results:
         checks=tuple(check_results(assessment)),
         arrays=tuple(_array(assessment, item) for item in assessment.arrays),
         clearances=tuple(map(_clearance, assessment.clearances)),
-        low_velocity=model.LowVelocity(
+        low_velocity=LowVelocity(
             arrays=tuple(map(_low_velocity, slow.arrays)),
             clearances=tuple(map(_clearance, slow.clearances.values())),
         ),
@@ -79,9 +112,9 @@ def results(assessment: Assessment, evidence: Evidence) -> model.Results:
     )
 
 
-def compared(assessment: Assessment) -> model.Compared:
+def compared(assessment: Assessment) -> Compared:
     """Return what a later revision is compared with."""
-    return model.Compared(
+    return Compared(
         roofslip_version=version(),
         records=tuple(map(_record, assessment.shaking.records)),
         documents=tuple(map(_document, assessment.source.documents)),
@@ -94,22 +127,22 @@ def compared(assessment: Assessment) -> model.Compared:
     )
 
 
-def _record(file: RecordFile) -> model.RecordResult:
-    return model.RecordResult(
+def _record(file: RecordFile) -> RecordResult:
+    return RecordResult(
         motion=file.motion_id, component=file.component, name=file.name, format=file.format,
         notes=file.notes, sha256=file.sha256, npts=file.npts, dt_s=file.dt_s, peak_g=file.peak_g,
     )  # fmt: skip
 
 
-def _document(document: Document) -> model.DocumentResult:
-    return model.DocumentResult(
+def _document(document: Document) -> DocumentResult:
+    return DocumentResult(
         label=document.label, path=document.path, size=document.size, sha256=document.sha256
     )
 
 
-def _motion(motion: Motion, prepared: PreparedMotion) -> model.MotionResult:
+def _motion(motion: Motion, prepared: PreparedMotion) -> MotionResult:
     samples = np.concatenate((motion.ax_mps2, motion.ay_mps2, motion.az_mps2))
-    return model.MotionResult(
+    return MotionResult(
         id=motion.id, recorded_at=prepared.recorded_at, processing=prepared.done,
         scaling=prepared.scaling, scale=motion.scale, dt_s=motion.dt_s, npts=len(motion.ax_mps2),
         sha256=hashlib.sha256(samples.astype("<f8").tobytes()).hexdigest(),
@@ -118,11 +151,11 @@ def _motion(motion: Motion, prepared: PreparedMotion) -> model.MotionResult:
     )  # fmt: skip
 
 
-def _printed(us_first: bool) -> model.PrintedResult:
+def _printed(us_first: bool) -> PrintedResult:
     units = UnitFormat(us_first=us_first).units()
-    return model.PrintedResult(
+    return PrintedResult(
         lengths=tuple(
-            model.LengthUnitResult(symbol=unit.symbol, size_m=unit.si, decimals=unit.decimals)
+            LengthUnitResult(symbol=unit.symbol, size_m=unit.si, decimals=unit.decimals)
             for unit in units
         ),
         ratio_decimals=2,
@@ -131,8 +164,8 @@ def _printed(us_first: bool) -> model.PrintedResult:
     )
 
 
-def _roof(roof: RoofMotion) -> model.RoofResult:
-    return model.RoofResult(
+def _roof(roof: RoofMotion) -> RoofResult:
+    return RoofResult(
         words=roof.building.words, n_modes=roof.n_modes, next_mode_share=roof.next_share,
         left_out_share=roof.left_out_share, ground_peak_mps2=roof.ground_peak_mps2,
         roof_peak_mps2=roof.roof_peak_mps2, pad_s=roof.pad_s,
@@ -141,22 +174,22 @@ def _roof(roof: RoofMotion) -> model.RoofResult:
 
 def finding_results(
     findings: Iterable[Finding], addresses: Mapping[Place, str]
-) -> Iterator[model.FindingResult]:
+) -> Iterator[FindingResult]:
     """Yield warnings and notes on the input, each with its cell."""
     listed = tuple(findings)
     for finding, cell in zip(listed, located(listed, addresses), strict=True):
-        yield model.FindingResult(
+        yield FindingResult(
             level=finding.level, id=finding.id, cell=cell, text=finding.text, reason=finding.reason,
         )  # fmt: skip
 
 
-def check_results(assessment: Assessment) -> Iterator[model.CheckResult]:
+def check_results(assessment: Assessment) -> Iterator[CheckResult]:
     """Yield the checks of a project, in their order."""
     us_first, addresses = assessment.project.us_first, assessment.source.addresses
     for check in assessment.checks:
         found_text, limit_text = texts(check, us_first)
         amounts = [x for x in (check.found, check.limit) if isinstance(x, Amount)]
-        yield model.CheckResult(
+        yield CheckResult(
             id=check.id, title=check.title, subject=check.subject, arrays=check.arrays,
             found=_value(check.found), limit=_value(check.limit),
             unit=amounts[0].quantity.base if amounts else "", found_text=found_text,
@@ -171,8 +204,8 @@ def _value(amount: Amount | str) -> float:
     return amount.value if isinstance(amount, Amount) else math.nan
 
 
-def _low_velocity(item: ArrayAssessment) -> model.LowVelocityResult:
-    return model.LowVelocityResult(
+def _low_velocity(item: ArrayAssessment) -> LowVelocityResult:
+    return LowVelocityResult(
         id=item.id, mu=item.array.mu, computed_m=item.analysis.value_m,
         computed_basis=item.analysis.basis, mean_prd_m=item.analysis.mean_m,
         largest_prd_m=item.analysis.largest_m, prd_variation=item.variation,
@@ -183,12 +216,12 @@ def _low_velocity(item: ArrayAssessment) -> model.LowVelocityResult:
     )  # fmt: skip
 
 
-def _array(assessment: Assessment, item: ArrayAssessment) -> model.ArrayResult:
+def _array(assessment: Assessment, item: ArrayAssessment) -> ArrayResult:
     tipping, uplift = item.tipping, item.uplift
-    runs: list[model.RunResult] = []
+    runs: list[RunResult] = []
     for motion in item.motions:
         runs += [_run(motion, run) for run in motion.runs]
-    return model.ArrayResult(
+    return ArrayResult(
         id=item.id, verdict=assessment.array_verdict(item), slope_rad=item.array.slope_rad,
         mu=item.array.mu, friction=item.array.friction,
         friction_as_run=mu_words(item.array.friction), computed_m=item.analysis.value_m,
@@ -200,14 +233,14 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> model.ArrayResult:
         design_permitted=item.is_permitted,
         peaks=tuple(map(_peak, item.motions)), peak_speed_mps=item.fastest_mps,
         interconnection_n=item.interconnection_n,
-        tipping=model.TippingResult(
+        tipping=TippingResult(
             demand=tipping.demand,
             capacity=tipping.capacity,
             held_ratio=tipping.at_rest_ratio,
             sliding_ratio=tipping.sliding_ratio,
             ok=tipping.is_ok,
         ),
-        uplift=model.UpliftResult(
+        uplift=UpliftResult(
             n_min_g=uplift.n_min_g,
             t_first_s=uplift.t_first_s,
             duration_s=uplift.duration_s,
@@ -219,17 +252,17 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> model.ArrayResult:
     )  # fmt: skip
 
 
-def _peak(motion: MotionRun) -> model.PeakResult:
-    return model.PeakResult(
+def _peak(motion: MotionRun) -> PeakResult:
+    return PeakResult(
         motion=motion.motion.id, down_m=motion.peak_m(Direction.DOWN),
         up_m=motion.peak_m(Direction.UP), across_m=motion.peak_m(Direction.ACROSS),
         any_m=motion.peak_m(Direction.ANY),
     )  # fmt: skip
 
 
-def _run(motion: MotionRun, run: OrientedRun) -> model.RunResult:
+def _run(motion: MotionRun, run: OrientedRun) -> RunResult:
     result, solution = run.result, run.solution
-    return model.RunResult(
+    return RunResult(
         motion=motion.motion.id, along=run.orientation.component, polarity=run.orientation.polarity,
         scale=run.scene.scale, dt_s=run.scene.dt_s, status=result.status, prd_m=result.prd_m,
         residual_m=result.residual_m, down_m=result.down_m, up_m=result.up_m,
@@ -242,8 +275,8 @@ def _run(motion: MotionRun, run: OrientedRun) -> model.RunResult:
     )  # fmt: skip
 
 
-def _clearance(gap: ClearanceCheck) -> model.ClearanceResult:
-    return model.ClearanceResult(
+def _clearance(gap: ClearanceCheck) -> ClearanceResult:
+    return ClearanceResult(
         array=gap.clearance.array, object=gap.clearance.object, direction=gap.clearance.direction,
         neighbor=gap.neighbor, governing_array=gap.governing_array, design_m=gap.design_m,
         importance=gap.importance, factor=gap.factor, minimum_m=gap.minimum_m,
@@ -253,11 +286,11 @@ def _clearance(gap: ClearanceCheck) -> model.ClearanceResult:
     )  # fmt: skip
 
 
-def _linked(item: LinkedArray) -> model.LinkedResult:
-    runs: list[model.LinkedRunResult] = []
+def _linked(item: LinkedArray) -> LinkedResult:
+    runs: list[LinkedRunResult] = []
     for motion in item.motions:
         runs += [_linked_run(item, motion, run) for run in motion.runs]
-    return model.LinkedResult(
+    return LinkedResult(
         array=item.design.id, mus=item.row.mus, stiffness_n_per_m=item.links.stiffness_n_per_m,
         damping_ratio=item.links.damping_ratio, rigid_one_axis_m=item.rigid.value_m,
         linked_one_axis_m=item.linked.value_m, ratio=item.ratio, design_m=item.design.design_m,
@@ -267,8 +300,8 @@ def _linked(item: LinkedArray) -> model.LinkedResult:
     )  # fmt: skip
 
 
-def _linked_run(item: LinkedArray, motion: LinkedMotion, run: LinkedRun) -> model.LinkedRunResult:
-    return model.LinkedRunResult(
+def _linked_run(item: LinkedArray, motion: LinkedMotion, run: LinkedRun) -> LinkedRunResult:
+    return LinkedRunResult(
         motion=motion.motion.id, along=run.orientation.component, polarity=run.orientation.polarity,
         status=run.row.status, rigid_status=run.rigid.status, rigid_prd_m=run.rigid.prd_m,
         prd_m=run.row.prd_m, residual_m=run.row.residual_m, stretch_m=run.row.stretch_m,
@@ -277,12 +310,12 @@ def _linked_run(item: LinkedArray, motion: LinkedMotion, run: LinkedRun) -> mode
     )  # fmt: skip
 
 
-def _neighbor(pair: PlanNeighbor) -> model.NeighborResult:
-    return model.NeighborResult(
+def _neighbor(pair: PlanNeighbor) -> NeighborResult:
+    return NeighborResult(
         array=pair.array, other=pair.other, kind=pair.kind, gap_m=pair.gap_m, reach_m=pair.reach_m,
         is_missing=pair.is_missing, add_to=pair.to_add,
         given=tuple(
-            model.GivenResult(
+            GivenResult(
                 clearance=str(gap.number),
                 cell=gap.cell,
                 provided_m=gap.clearance.provided_m,
@@ -294,14 +327,14 @@ def _neighbor(pair: PlanNeighbor) -> model.NeighborResult:
     )  # fmt: skip
 
 
-def _remedies(advice: Remedies) -> Iterator[model.RemedyResult]:
+def _remedies(advice: Remedies) -> Iterator[RemedyResult]:
     """Yield the remedies of each check, then the changes that are enough together, if several."""
     remedies_of_checks = [((remedy,), remedy.done) for remedy in advice.own]
     together = (advice.together[len(advice.together) == 1 :], advice.done)
     for remedies, done in [*remedies_of_checks, together]:
         if remedies and done:
             checks = chain.from_iterable(remedy.checks for remedy in remedies)
-            yield model.RemedyResult(
+            yield RemedyResult(
                 quantities=tuple(remedy.kind for remedy in remedies),
                 checks=tuple(f"{check.title}, {check.subject}" for check in checks),
                 change=joined([remedy.words for remedy in remedies]), verdict=done.verdict,
@@ -309,10 +342,10 @@ def _remedies(advice: Remedies) -> Iterator[model.RemedyResult]:
             )  # fmt: skip
 
 
-def _uncertainty(item: Uncertainty) -> model.UncertaintyResult:
-    return model.UncertaintyResult(
+def _uncertainty(item: Uncertainty) -> UncertaintyResult:
+    return UncertaintyResult(
         margins=tuple(
-            model.MarginResult(
+            MarginResult(
                 clearance=str(margin.number),
                 array=margin.array.id,
                 mu=margin.array.array.mu,
@@ -323,11 +356,11 @@ def _uncertainty(item: Uncertainty) -> model.UncertaintyResult:
             )
             for margin in item.margins
         ),
-        angles=model.AnglesResult(
+        angles=AnglesResult(
             motion=item.motion.motion.id,
             prd_m=item.used_m,
             turned=tuple(
-                model.TurnedResult(
+                TurnedResult(
                     angle_deg=run.angle_deg, prd_m=run.result.prd_m, status=run.result.status
                 )
                 for run in item.turned
@@ -337,14 +370,14 @@ def _uncertainty(item: Uncertainty) -> model.UncertaintyResult:
     )
 
 
-def _cumulative(item: Cumulative) -> model.CumulativeResult:
-    return model.CumulativeResult(
+def _cumulative(item: Cumulative) -> CumulativeResult:
+    return CumulativeResult(
         array=item.array.id, sums_m=item.sums_m, mean_m=item.mean_m, largest_m=item.largest_m
     )
 
 
-def _variation(building: BuildingInput, value: AnalysisValue) -> model.VariationResult:
-    return model.VariationResult(
+def _variation(building: BuildingInput, value: AnalysisValue) -> VariationResult:
+    return VariationResult(
         period_s=building.period_s or math.nan, damping_percent=building.damping_percent,
         mean_m=value.mean_m, largest_m=value.largest_m, value_m=value.value_m,
     )  # fmt: skip

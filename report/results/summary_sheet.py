@@ -19,7 +19,8 @@ from report.assessment.design.verdict import Verdict, worst
 from report.provenance.package_sources import fingerprint
 from report.results.clearances_sheet import GAPS, GapRow
 from report.results.design_sheet import DESIGN, DesignRow, any_of
-from report.results.sheet_columns import LINE_PT, TOP, Cells, Pages, lines_of
+from report.results.sheet_columns import Cells
+from report.results.sheet_pages import LINE_PT, TOP, Pages, lines_of
 from report.text.units import ratio
 
 # What a cell holds: a text, a number, or a formula with its value.
@@ -141,6 +142,7 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
     )
     if not known:
         return ("none has a required separation", "", "", "", "", "", (formula, of_all.value))
+    # Of equal ones the first, as MATCH finds it.
     worst_place = ratios.index(max(known))
     place = f"MATCH(MAX({cells.demand_capacity}),{cells.demand_capacity},0)"
 

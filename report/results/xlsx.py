@@ -14,14 +14,10 @@ from report.assessment.support.response_spectra import Spectra
 from report.provenance.package_sources import fingerprint
 from report.results.clearances_sheet import result_cells, write_clearances
 from report.results.design_sheet import DESIGN, write_design, write_inputs, write_peaks
-from report.results.list_sheets import (
-    link_cells,
-    write_link_runs,
-    write_links,
-    write_lists,
-    write_requirements,
-)
-from report.results.sheet_columns import TOP, Cells, Pages, text_workbook
+from report.results.linked_sheets import link_cells, write_link_runs, write_links
+from report.results.list_sheets import write_lists, write_requirements
+from report.results.sheet_columns import Cells
+from report.results.sheet_pages import TOP, Pages, text_workbook
 from report.results.summary_sheet import write_summary
 from report.text.names import shortened
 

@@ -17,7 +17,8 @@ from report.study.allowed_answers import allowed
 from report.study.array_page import fragility, sheets, years, years_json
 from report.study.design_curves import curves
 from report.study.exports import LIBRARY, export_files
-from report.study.page_parts import basis, formula, limits
+from report.study.formula_section import formula
+from report.study.page_parts import basis, limits
 from report.study.prescribed import compare, prescribed
 from report.study.run_study import RUNS, run_study
 from report.study.study_plan import StudyPlan

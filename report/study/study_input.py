@@ -16,19 +16,9 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.project.model.choices import (
-    AccelUnit,
-    Frozen,
-    Id,
-    Polarity,
-    Positive,
-    RecordedAt,
-    RequiredText,
-    RuleSetName,
-    Text,
-    UnitsFirst,
-)
+from report.project.model.choices import AccelUnit, Polarity, RecordedAt, RuleSetName, UnitsFirst
 from report.project.model.friction_report import FrictionTestRow
+from report.project.model.values import Frozen, Id, Positive, RequiredText, Text
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 

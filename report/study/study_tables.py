@@ -15,7 +15,7 @@ import numpy as np
 
 from report.pages.marks import UNVERIFIED
 from report.project.read.years_file import SUPPORTING
-from report.results.sheet_columns import text_workbook
+from report.results.sheet_pages import text_workbook
 from report.study.dispersions import NAMES, dispersions, exported, is_exportable, is_refused
 from report.study.study_plan import ArrayPlan
 from report.study.study_results import ArrayStudyResult, LimitState, StudyResults

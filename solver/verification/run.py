@@ -15,6 +15,7 @@ from solver.verification import (
     building,
     building_checks,
     checks,
+    conditioning,
     design_checks,
     model_checks,
     model_study,
@@ -77,7 +78,7 @@ def verify(
     progress("Stability: maps of error over two parameters")
     maps = tuple(stability.maps(records[0], quick=quick))
     progress("Sensitivity to small changes of friction")
-    conditioning = tuple(stability.conditioning(records[0], quick=quick))
+    sensitive = tuple(conditioning.conditioning(records[0], quick=quick))
     progress("The paper's convergence study (Fig. 5)")
     convergence = {record.name: paper_studies.convergence(record) for record in records}
     progress("The paper's comparison with a link model (Figs. 6 to 9)")
@@ -96,7 +97,7 @@ def verify(
         convergence=convergence,
         links=links,
         curves=curves,
-        conditioning=conditioning,
+        conditioning=sensitive,
         roofs=roofs,
         models=(models,),
         records=tuple(record.name for record in records),

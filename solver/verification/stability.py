@@ -1,5 +1,4 @@
-"""Maps of error over two parameters, where methods diverge, stall or lose accuracy; and cases in
-which the problem itself is sensitive to the last digits of the friction coefficient.
+"""Maps of error over two parameters, where methods diverge, stall or lose accuracy.
 
 Runs only. A failed run is a failed cell and is never omitted. See `solver.rivals.methods` for the
 limits.
@@ -18,8 +17,7 @@ from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.sliding import checked, two_axes
 from solver.sliding.method import link_frequency
-from solver.studies.sweep import sweep
-from solver.verification.evidence import Conditioning, StabilityMap, percent_off
+from solver.verification.evidence import StabilityMap, percent_off
 from solver.verification.study_cases import CASES, Case, run
 from solver.verification.verification_motions import scale_to, shortened
 
@@ -151,41 +149,3 @@ def _largest_error(record: Record, name: str, cell: _Cell) -> float:
     prd_m = [run(record, case, name, **parameters).prd_m for case, parameters in cell]
     exact_m = [run(record, case).prd_m for case, _ in cell]
     return float(percent_off(np.array(prd_m), np.array(exact_m)).max())
-
-
-def conditioning(record: Record, *, quick: bool) -> Iterator[Conditioning]:
-    """Compute the change of the exact PRD for small changes of the friction coefficient."""
-    count = 60 if quick else 240
-    # Toward the critical friction from both sides, to within a millionth of it.
-    near = CRITICAL_MU * (1.0 + np.geomspace(1e-6, 0.5, count // 2))
-    below = 2.0 * CRITICAL_MU - near[::-1]
-    both = np.concatenate([below, near])
-    wide = np.linspace(0.02, 0.8, count)
-    still = "Without shaking the block slides freely if μ < tan θ and stays at rest if μ > tan θ. "
-    still += "At the limit the result depends on the last digits of μ, for every method."
-    shaken = "With shaking, a change in the 9th digit of μ changes the PRD by a similarly small "
-    shaken += "share, except where a slip barely occurs."
-    design = "This is the effect of 5 % more or less friction on the PRD."
-    for title, note, ppa_g, change, mu in (
-        ("μ changed by 10⁻⁹, no shaking", still, 0.0, 1e-9, both),
-        ("μ changed by 10⁻⁹, shaking, μ near tan θ", shaken, PPA_G, 1e-9, both),
-        ("μ changed by 10⁻⁹, shaking", shaken, 1.0, 1e-9, wide),
-        ("μ changed by 5 %, shaking", design, 1.0, 0.05, wide),
-    ):
-        prd_m, less_m, more_m = sweep(
-            record.a_mps2,
-            record.dt_s,
-            slopes_rad=math.radians(SLOPE_DEG),
-            mus=np.concatenate([mu, mu * (1.0 - change), mu * (1.0 + change)]),
-            scales=scale_to(record, ppa_g),
-        ).prd_m.reshape(3, mu.size)
-        yield Conditioning(
-            title=title,
-            note=note,
-            record=record.name,
-            slope_deg=SLOPE_DEG,
-            ppa_g=ppa_g,
-            mu=mu,
-            prd_m=prd_m,
-            change_percent=np.maximum(percent_off(less_m, prd_m), percent_off(more_m, prd_m)),
-        )

@@ -14,7 +14,7 @@ from report.assessment.design.rule_set import OVERRIDDEN, takes_plain_mean
 from report.assessment.design.verdict import STAYS
 from report.project.model import ProjectInput
 from report.project.model.input_rows import Place
-from report.project.model.options import Override, provision_name, provision_unit
+from report.project.model.overrides import Override, provision_name, provision_unit
 from report.text.amounts import limit_amounts
 from report.text.letter_case import lowered
 from solver.records.acceptance import Acceptance

@@ -14,9 +14,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 
 from report.project.model import ProjectInput
 from report.project.model.array import WEIGHT_PARTS
-from report.project.model.choices import FORMER_CHOICES, ClearanceSource, Frozen
+from report.project.model.choices import FORMER_CHOICES, ClearanceSource
 from report.project.model.input_rows import Place
 from report.project.model.shapes import SIDES
+from report.project.model.values import Frozen
 from report.project.workbook import SECTION, SECTIONS
 from report.project.workbook.earlier_workbooks import ORDERS
 from report.text.grouping import grouped_by

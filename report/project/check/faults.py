@@ -24,7 +24,8 @@ from report.project.model.input_rows import (
     repeated,
     suggestion,
 )
-from report.project.model.options import factors, provision_name
+from report.project.model.options import factors
+from report.project.model.overrides import provision_name
 from report.project.model.shapes import SIDES
 from report.project.workbook import SECTION
 from report.text.typed_letters import cut, foreign_letters, looks

@@ -14,7 +14,7 @@ from report.project.check.plan_shapes import far_off
 from report.project.check.site_faults import ROUNDING_OF_COEFFICIENTS
 from report.project.model import ProjectInput
 from report.project.model.array import Array
-from report.project.model.choices import Direction, Frozen, ObjectKind, SlopeUnit
+from report.project.model.choices import Direction, ObjectKind, SlopeUnit
 from report.project.model.finding import Finding, Level, note, warning
 from report.project.model.friction_report import FrictionTestRow
 from report.project.model.input_rows import Place
@@ -22,6 +22,7 @@ from report.project.model.motion_input import MotionInput
 from report.project.model.roof import Clearance, RoofObject
 from report.project.model.shapes import Shape, closest, gap_m
 from report.project.model.site_input import Site
+from report.project.model.values import Frozen
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry, SheetSection
 from report.text.counts import counted, numbered

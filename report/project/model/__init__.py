@@ -13,21 +13,15 @@ from typing import Annotated, Any
 from pydantic import Field, model_validator
 
 from report.project.model.array import Array, Links
-from report.project.model.choices import (
-    ClearanceSource,
-    DistanceBasis,
-    Frozen,
-    PlanPaper,
-    RequiredText,
-    Text,
-    UnitsFirst,
-)
+from report.project.model.choices import ClearanceSource, DistanceBasis, PlanPaper, UnitsFirst
 from report.project.model.friction_report import FrictionTestRow, FrictionTests
 from report.project.model.motion_input import BuildingInput, MotionInput, SpectrumPoint, TargetInput
-from report.project.model.options import Acknowledgment, Confirmation, Options, Override
+from report.project.model.options import Acknowledgment, Confirmation, Options
+from report.project.model.overrides import Override
 from report.project.model.roof import ROOF, Clearance, DrawingLayer, Roof, RoofObject, Vertex
 from report.project.model.shapes import Point, Shape, ring
 from report.project.model.site_input import Site
+from report.project.model.values import Frozen, RequiredText, Text
 
 
 class Project(Frozen):

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
 
-from report.project.model.choices import (
+from report.project.model.choices import SlopeUnit
+from report.project.model.input_rows import InputRow
+from report.project.model.shapes import Placed, Shape
+from report.project.model.values import (
     Frozen,
     Id,
     NotNegative,
     Positive,
     RequiredText,
-    SlopeUnit,
     Text,
     decimals,
 )
-from report.project.model.input_rows import InputRow
-from report.project.model.shapes import Placed, Shape
 from report.text.units import G_MPS2
 from solver.errors import DefectError
 from solver.friction_tests import MOST_MU, MOST_RATE_S_PER_M

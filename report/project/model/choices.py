@@ -1,47 +1,15 @@
-"""The base of all models, the choices that cells offer, and the types that their values have.
-
-Owns no fields and no labels. Read `report.project.model` first.
-"""
+"""The choices that cells offer. Read `report.project.model` first."""
 
 from __future__ import annotations
 
 import re
 from enum import StrEnum
-from typing import Annotated, Self
-
-from pydantic import BaseModel, ConfigDict, Field
+from typing import Self
 
 from solver.records.record import UNIT_CHOICES
 from solver.rules.hazard import APPROXIMATE_PERIODS, EDITIONS
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import RULE_SETS
-
-
-class Frozen(BaseModel):
-    """Base of all models: frozen, complete, finite."""
-
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", allow_inf_nan=False, str_strip_whitespace=True
-    )
-
-
-MAX_TEXT = 2000
-
-Text = Annotated[str, Field(max_length=MAX_TEXT)]
-RequiredText = Annotated[str, Field(min_length=1, max_length=MAX_TEXT)]
-Id = Annotated[str, Field(min_length=1, max_length=40)]
-Positive = Annotated[float, Field(gt=0)]
-NotNegative = Annotated[float, Field(ge=0)]
-
-_DECIMAL = re.compile(r"[0-9]*\.[0-9]+")
-
-
-def decimals(text: str) -> tuple[float, ...]:
-    """Return the numbers of a list such as `0.40, 0.45`; empty if the text is not one."""
-    # Each needs a decimal point, so that a decimal comma never splits one number into two.
-    parts = [part.strip() for part in text.split(",")]
-    return tuple(map(float, parts)) if all(map(_DECIMAL.fullmatch, parts)) else ()
-
 
 # Words of earlier workbooks, with those that now stand for them.
 FORMER_CHOICES = {

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from report.project.model.choices import Frozen, Id, NotNegative, Positive, Text
+from report.project.model.values import Frozen, Id, NotNegative, Positive, Text
 from solver.friction_tests import MOST_MU, FrictionRun, Surface
 
 Mu = Annotated[float, Field(ge=0.0, le=MOST_MU)]

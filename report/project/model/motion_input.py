@@ -12,15 +12,12 @@ from pydantic import Field
 from report.project.model.choices import (
     AccelUnit,
     Baseline,
-    Frozen,
-    Id,
     Polarity,
     RecordedAt,
-    RequiredText,
     Scaling,
     StructureType,
-    Text,
 )
+from report.project.model.values import Frozen, Id, RequiredText, Text
 from solver.bounds import ORDINATE
 from solver.rules.ac156 import Tail
 

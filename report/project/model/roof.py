@@ -7,18 +7,9 @@ from typing import Annotated
 from pydantic import Field
 
 from report.project.model.array import ImportanceCell
-from report.project.model.choices import (
-    ClearanceSource,
-    Direction,
-    Frozen,
-    Id,
-    LayerKind,
-    NotNegative,
-    ObjectKind,
-    RequiredText,
-    Text,
-)
+from report.project.model.choices import ClearanceSource, Direction, LayerKind, ObjectKind
 from report.project.model.shapes import Placed
+from report.project.model.values import Frozen, Id, NotNegative, RequiredText, Text
 
 # Whence a row comes that a command has taken from a drawing.
 DRAWING = "drawing"

@@ -16,7 +16,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Field
 
-from report.project.model.choices import Frozen
+from report.project.model.values import Frozen
 
 Point = tuple[float, float]
 

@@ -11,16 +11,13 @@ from pydantic import Field
 from report.project.model.choices import (
     BuildingCode,
     EditionName,
-    Frozen,
-    NotNegative,
-    Positive,
     RiskCategory,
     RuleSetName,
     Sdc,
     SiteClass,
-    Text,
 )
 from report.project.model.input_rows import InputRow
+from report.project.model.values import Frozen, NotNegative, Positive, Text
 from solver.errors import DefectError
 from solver.rules.hazard import (
     EDITIONS,

@@ -12,9 +12,9 @@ from pydantic import ValidationError
 
 from report.project.check.faults import faults
 from report.project.model import ProjectInput
-from report.project.model.choices import Frozen
 from report.project.model.finding import Finding
 from report.project.model.input_rows import Inputs, Place, Where
+from report.project.model.values import Frozen
 from report.project.read.archive import OpenBook
 from report.project.read.documents import Document
 from report.project.read.unseen import Unseen

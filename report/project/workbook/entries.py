@@ -15,8 +15,9 @@ from typing import Any, get_args
 
 from annotated_types import Ge, Gt, Le, Lt
 
-from report.project.model.choices import Frozen, YesNo
+from report.project.model.choices import YesNo
 from report.project.model.input_rows import InputRow
+from report.project.model.values import Frozen
 from report.text.units import Quantity, Unit
 
 

@@ -4,15 +4,8 @@ from __future__ import annotations
 
 import datetime as dt
 
-from report.project.model.options import (
-    Acknowledgment,
-    Confirmation,
-    Options,
-    Override,
-    provision_key,
-    provision_name,
-    provision_unit,
-)
+from report.project.model.options import Acknowledgment, Confirmation, Options
+from report.project.model.overrides import Override, provision_key, provision_name, provision_unit
 from report.project.workbook.entries import Entry, block, table
 from solver.rules.provisions import MEAN_WITHOUT_FACTOR_MOTIONS
 

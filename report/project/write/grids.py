@@ -15,8 +15,9 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.table import Table, TableColumn, TableFormula, TableStyleInfo
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.model.choices import Frozen, UnitsFirst
-from report.project.model.options import provision_name
+from report.project.model.choices import UnitsFirst
+from report.project.model.overrides import provision_name
+from report.project.model.values import Frozen
 from report.project.workbook.answer_columns import (
     SITE_ANSWERS,
     SITE_FORMAT,

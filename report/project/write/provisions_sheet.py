@@ -9,7 +9,7 @@ from openpyxl import Workbook
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
-from report.project.model.options import provision_name, provision_unit
+from report.project.model.overrides import provision_name, provision_unit
 from report.project.workbook import layout
 from report.project.workbook.answer_columns import (
     BY_FORMULA,

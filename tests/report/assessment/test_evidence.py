@@ -19,7 +19,7 @@ from report.assessment.support.further_runs import building_variations, cumulati
 from report.assessment.support.input_cases import building_case, cases
 from report.pages.marks import Marks
 from report.pages.saving import saving_words
-from report.project.model.options import Override
+from report.project.model.overrides import Override
 from report.text.unit_format import UnitFormat
 from solver import at_roof, building_of_periods
 from solver.sliding.model_selection import DEFAULT

@@ -17,7 +17,7 @@ from report.cli.main import main
 from report.project.check.covered import CONFIRMATIONS, outdated
 from report.project.model import ProjectInput
 from report.project.model.choices import Direction
-from report.project.model.options import provision_key
+from report.project.model.overrides import provision_key
 from report.project.read.read import read
 from report.project.workbook import SECTION, SECTIONS
 from report.project.write.overwritten import overwritten

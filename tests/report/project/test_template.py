@@ -16,7 +16,7 @@ from fixtures.workbooks import arrays, blank, formula_cells, make, project, type
 from projects.example.make import project as example
 from report.drawing.paper_items import TYPE_PT, width_in
 from report.project.model.choices import UnitsFirst
-from report.project.model.options import provision_name
+from report.project.model.overrides import provision_name
 from report.project.read.read import read
 from report.project.workbook import SECTIONS
 from report.project.write.template import write_template

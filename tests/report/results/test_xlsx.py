@@ -13,14 +13,8 @@ from fixtures.workbooks import formula_cells
 from report.assessment.checks.sentence import alike, found_and_limit
 from report.assessment.support.response_spectra import spectra
 from report.provenance.package_sources import fingerprint
-from report.results.sheet_columns import (
-    Pages,
-    SheetColumn,
-    SheetLayout,
-    SheetRow,
-    up_column,
-    write_live,
-)
+from report.results.sheet_columns import SheetColumn, SheetLayout, SheetRow, up_column, write_live
+from report.results.sheet_pages import Pages
 from report.results.xlsx import results_xlsx
 
 GOVERNING = "Governing array"

@@ -14,7 +14,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, Status
 from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding import one_axis
-from solver.verification import stability, study_cases, workprecision
+from solver.verification import conditioning, stability, study_cases, workprecision
 from solver.verification.study_cases import CASES, compared_runs
 from solver.verification.verification_motions import near_fault_pulse, own_triples, shortened
 
@@ -256,7 +256,7 @@ def test_a_link_fails_above_its_limit_and_is_sound_well_below(links):
 
 @pytest.mark.quick
 def test_at_the_critical_friction_the_ninth_digit_shows_and_elsewhere_it_does_not(pulse):
-    still, shaken, wide, design = stability.conditioning(pulse, quick=True)
+    still, shaken, wide, design = conditioning.conditioning(pulse, quick=True)
     nearest = int(np.abs(still.mu / stability.CRITICAL_MU - 1.0).argmin())
     assert abs(still.mu[nearest] / stability.CRITICAL_MU - 1.0) < 1.1e-6
     assert still.change_percent.max() > 1000 * np.median(wide.change_percent)

@@ -1,0 +1,44 @@
+"""How a row of results.json holds a number: frozen, NaN as null, printed in the units given."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
+
+Number = Annotated[
+    float,
+    BeforeValidator(lambda value: math.nan if value is None else value),
+    WithJsonSchema({"type": ["number", "null"]}),
+]
+"""A number; NaN is none, which is null in JSON."""
+
+
+class ResultModel(BaseModel):
+    """A row of the results: complete and frozen."""
+
+    model_config = ConfigDict(frozen=True)
+
+
+class LengthUnitResult(ResultModel):
+    """A unit of length as it is printed."""
+
+    symbol: str
+    size_m: float
+    """Its length."""
+    decimals: int
+    """Decimals that are printed."""
+
+
+class PrintedResult(ResultModel):
+    """How numbers are printed."""
+
+    lengths: tuple[LengthUnitResult, ...]
+    """Of displacements and separations, the preferred unit first."""
+    ratio_decimals: int
+    """Decimals of a ratio."""
+    rounded_up: tuple[str, ...]
+    """Keys of what is required, and of demands, which are rounded up."""
+    rounded_down: tuple[str, ...]
+    """Keys of what is provided, which are rounded down; all other keys to the nearest."""
