@@ -6,7 +6,7 @@ Runs nothing. Read `findings` and `limits_before_runs`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from itertools import chain
@@ -88,16 +88,13 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     if not shaking.motions:
         yield from _not_run(data)
     known = before_runs(data, rules, shaking, acceptance, routes, analyzed)
-    yield from map(partial(_finding, us_first=data.us_first), _unsatisfied(known, data))
-
-
-def _unsatisfied(known: Iterable[Check], data: ProjectInput) -> Iterator[Check]:
-    # Of the limits of a route that is not taken, the note above says what follows.
-    every = (*known, *of_pathways(data))
-    yield from (c for c in every if c.is_open or (c.verdict is Verdict.NOTE and c.remedy))
+    for check in (*known, *of_pathways(data)):
+        # Of the limits of a route that is not taken, the note above says what follows.
+        if check.is_open or (check.verdict is Verdict.NOTE and check.remedy):
+            yield _finding(check, data.us_first)
     for index, array in enumerate(data.arrays):
         if array.slack_m is None:
-            yield slack_check(array, math.nan, index)
+            yield _finding(slack_check(array, math.nan, index), data.us_first)
 
 
 def _finding(check: Check, us_first: bool) -> Finding:

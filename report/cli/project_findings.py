@@ -51,7 +51,10 @@ def findings_before_runs(
         all_findings.append(note(Place("motions"), without_analysis(assess(sheet, motions))))
     all_findings += _computed(sheet)
     # Only here the clock is read: a package of the same input is to be the same on any day.
-    all_findings += _in_future(sheet, dt.date.today())
+    date, today = sheet.project.project.date, dt.date.today()
+    if date > today:
+        text = f"date is {date}, after today, {today}; correct it if that is not intended"
+        all_findings.append(note(Place("project", 0, "date"), text))
     return motions, in_order(all_findings)
 
 
@@ -66,14 +69,6 @@ def _computed(sheet: Sheet) -> Iterator[Finding]:
         value = blank.get(sheet.addresses[place], "")
         if "(computed" in value:
             yield note(place, f"{entry.spoken} is {value}")
-
-
-def _in_future(sheet: Sheet, today: dt.date) -> Iterator[Finding]:
-    """Yield that a package is dated after today."""
-    date = sheet.project.project.date
-    if date > today:
-        text = f"date is {date}, after today, {today}; correct it if that is not intended"
-        yield note(Place("project", 0, "date"), text)
 
 
 def print_findings(

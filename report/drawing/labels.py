@@ -27,7 +27,12 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
     middle = plan.paper.frame(extent).middle
     for item in plan.edges:
         shape, name = plan.shapes[item.id], " ".join(plan.name_lines(item.id))
-        words = _edge_words(plan, item, name)
+        if item.kind is ObjectKind.EDGE_WITHOUT_PARAPET:
+            words = f"{name}: no parapet"
+        else:
+            height_m = math.nan if item.height_m is None else item.height_m
+            height = pair(height_m, Quantity.SIZE, plan.fmt.us_first)
+            words = f"{name}: parapet {height}{parapet_note(plan.assessment, item)}"
         if not isinstance(shape, Rectangle):
             plan.name_beside(plan.room(item.id), [words])
             continue
@@ -49,14 +54,6 @@ def along_strip(frame: Frame, middle: Point, wide: float) -> tuple[Frame, bool]:
         return centered(x, y, LINE_IN, wide), True
     y = frame.y1 + aside if y > middle[1] else frame.y0 - aside
     return centered(x, y, wide, LINE_IN), False
-
-
-def _edge_words(plan: PlanSheet, item: RoofObject, name: str) -> str:
-    if item.kind is ObjectKind.EDGE_WITHOUT_PARAPET:
-        return f"{name}: no parapet"
-    height = math.nan if item.height_m is None else item.height_m
-    note = parapet_note(plan.assessment, item)
-    return f"{name}: parapet {pair(height, Quantity.SIZE, plan.fmt.us_first)}{note}"
 
 
 def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
@@ -131,6 +128,7 @@ def _write(
 def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]]:
     """Yield the lines of an array's label, then fewer where there is less room."""
     name, fmt, says = plan.name_lines(array.id), plan.fmt, [plan.fmt.short]
+    # The browser page has a text for each, and no room for more.
     if plan.designs:
         yield [*name, f"Δ {plan.designs[array.id]}"]
         yield [*name]

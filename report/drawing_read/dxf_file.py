@@ -89,11 +89,6 @@ def limit(count: int, allowed: int, noun: str) -> None:
         )
 
 
-def _strict(data: bytes) -> Document:
-    info = dxf_stream_info(io.TextIOWrapper(io.BytesIO(data), "utf-8", "ignore"))
-    return read(io.TextIOWrapper(io.BytesIO(data), info.encoding, "surrogateescape"))
-
-
 def loaded(path: Path) -> tuple[Document, str]:
     """Return a drawing, and what to say of its repair if strict reading refuses it.
 
@@ -102,7 +97,9 @@ def loaded(path: Path) -> tuple[Document, str]:
     data = _read(path)
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     try:
-        return _strict(data), ""
+        info = dxf_stream_info(io.TextIOWrapper(io.BytesIO(data), "utf-8", "ignore"))
+        text = io.TextIOWrapper(io.BytesIO(data), info.encoding, "surrogateescape")
+        return read(text), ""
     except Exception as refused:  # a damaged drawing makes the library raise almost anything
         # What is missing at the end of a drawing that was cut off, no repair would tell.
         if not _ENDED.search(data):

@@ -121,7 +121,10 @@ def fill_plan(
             lines += _move_typed(change, plan, plan.move)
     for place in plan.roof:
         _fill_roof(change, place.shape)
-    _fill_layers(change, layers)
+    if not is_absent(change.book, SECTION["layers"]):
+        for layer, kind in layers.items():
+            for row in change.rows("layers", "layer", layer) or [change.added_row("layers")]:
+                change.put("layers", row, {"layer": layer, "kind": kind.value})
     shapes = {name: plan.before[name] for name in plan.typed} | plan.shapes
     far = far_off(shapes, plan.roof_shape, is_us=plan.unit == Quantity.PLAN.us)
     change.fill_in(replace=replace)
@@ -293,14 +296,6 @@ def _fill_roof(change: WorkbookChange, shape: Shape) -> None:
             change.refuse_cell(position, "the place of the roof")
         if value is not None or not is_blank:
             change.cells[position] = None if value is None else round(value / si, DIGITS)
-
-
-def _fill_layers(change: WorkbookChange, layers: Mapping[str, LayerKind]) -> None:
-    if not layers or is_absent(change.book, SECTION["layers"]):
-        return
-    for layer, kind in layers.items():
-        for row in change.rows("layers", "layer", layer) or [change.added_row("layers")]:
-            change.put("layers", row, {"layer": layer, "kind": kind.value})
 
 
 def _fill_outline(change: WorkbookChange, name: str, shape: Shape, source: str) -> None:

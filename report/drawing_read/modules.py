@@ -89,19 +89,14 @@ def joined(
     for kind in _KINDS:
         # Those of layouts that draw the outline of an array around its modules.
         drawn = [k for k, line in enumerate(outlines) if line.kind is kind and k not in gone]
-        across = _overlap([outlines[k] for k in drawn], [a for a in arrays if a.kind is kind])
+        # Neighbors share a border, which is nothing in common.
+        inner = [solid(array.shape).buffer(-ALIKE_M) for array in arrays if array.kind is kind]
+        area = shapely.union_all(inner)
+        shapely.prepare(area)
+        across = shapely.intersects(area, [solid(outlines[k].shape) for k in drawn])
         gone |= {k: False for k, overlaps in zip(drawn, across, strict=True) if overlaps}
     remaining = [line for index, line in enumerate(outlines) if index not in gone]
     return remaining, _in_reading_order(arrays), [outlines[k] for k in gone if not gone[k]]
-
-
-def _overlap(lines: Sequence[DrawnOutline], arrays: Sequence[DrawnOutline]) -> Any:
-    """Return which lines have more in common with arrays than their borders."""
-    # Neighbors share a border, which is nothing in common.
-    inner = [solid(array.shape).buffer(-ALIKE_M) for array in arrays]
-    area = shapely.union_all(inner)
-    shapely.prepare(area)
-    return shapely.intersects(area, [solid(line.shape) for line in lines])
 
 
 def _in_reading_order(arrays: Sequence[DrawnOutline]) -> list[DrawnOutline]:

@@ -341,14 +341,10 @@ def _edges(roof: Shape, objects: Sequence[DrawnOutline]) -> Iterator[DrawnOutlin
     kind = LayerKind.EDGE_WITHOUT_PARAPET
     for edge in bare_sides(Polygon(roof.points), strips, 90.0):
         name = free_name(kind, counts, taken)
-        yield DrawnOutline(name=name, kind=kind, shape=_strip(*edge.ends), handle="", layer="",
+        (x0, y0), (x1, y1) = edge.ends
+        # To the right of a side is outside: the outline is counterclockwise.
+        long = math.dist(*edge.ends)
+        dx, dy = EDGE_STRIP_M * (y1 - y0) / long, EDGE_STRIP_M * (x0 - x1) / long
+        strip = Polygon(ring([(x0, y0), (x1, y1), (x1 + dx, y1 + dy), (x0 + dx, y0 + dy)]))
+        yield DrawnOutline(name=name, kind=kind, shape=boxed(strip), handle="", layer="",
                            unnamed=edge.name, note="taken as without parapet")  # fmt: skip
-
-
-def _strip(start: Point, end: Point) -> Shape:
-    """Return a strip to the right of a line: outside of a counterclockwise outline."""
-    long = math.dist(start, end)
-    dx, dy = (EDGE_STRIP_M * (end[1] - start[1]) / long, EDGE_STRIP_M * (start[0] - end[0]) / long)
-    (x0, y0), (x1, y1) = start, end
-    shape = Polygon(ring([start, end, (x1 + dx, y1 + dy), (x0 + dx, y0 + dy)]))
-    return boxed(shape)

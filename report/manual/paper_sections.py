@@ -72,7 +72,9 @@ def curves(verification: Verification) -> Section:
             (study, _least_mu(study), f"curves-{name}", f"contours-{name}")
             for study, name in zip(verification.curves, names, strict=True)
         ],
-        prd_mm=_prd_mm,
+        prd_mm=lambda study: (
+            1e3 * float(np.interp(0.5, study.mus, study.prd(4.0, paper_figures.FIG_12_PPA_G)))
+        ),
         charts=charts,
     )
 
@@ -80,7 +82,3 @@ def curves(verification: Verification) -> Section:
 def _least_mu(study: DesignCurves) -> float:
     slope_deg, wanted_m = paper_figures.READ_OFF
     return study.minimum_mu(slope_deg, paper_figures.FIG_12_PPA_G, wanted_m)
-
-
-def _prd_mm(study: DesignCurves) -> float:
-    return 1e3 * float(np.interp(0.5, study.mus, study.prd(4.0, paper_figures.FIG_12_PPA_G)))

@@ -15,7 +15,7 @@ import numpy as np
 
 from report.assessment.assessment import Assessment
 from report.typeset.pdf import TEMPLATES
-from solver.model import STANDARD_GRAVITY_MPS2, Floats, Motion
+from solver.model import STANDARD_GRAVITY_MPS2, Motion
 
 # Records are mostly printed to it: whole numbers of this part of g take a quarter of the room.
 _PER_G = 1e5
@@ -46,17 +46,17 @@ def _motions(motions: Sequence[Motion]) -> dict[str, Any]:
     samples = np.concatenate([part for each in parts for part in each])
     whole = np.round(samples / STANDARD_GRAVITY_MPS2 * _PER_G)
     is_whole = np.array_equal(whole / _PER_G * STANDARD_GRAVITY_MPS2, samples)
+    if is_whole:
+        # Differences are small: the lowest byte of each first, and the rest are nearly all zero.
+        steps = np.diff(whole.astype("<i4"), prepend=np.int32(0)).astype("<i4")
+        content = steps.view(np.uint8).reshape(-1, 4).T.tobytes()
+    else:
+        content = samples.astype("<f8").tobytes()
     return {
         "per_g": _PER_G if is_whole else 0,
-        "samples": _packed(_differences(whole) if is_whole else samples.astype("<f8").tobytes()),
+        "samples": _packed(content),
         "listed": [
             {"dt_s": motion.dt_s, "sizes": [part.size for part in each]}
             for motion, each in zip(motions, parts, strict=True)
         ],
     }
-
-
-def _differences(whole: Floats) -> bytes:
-    """Return the differences of whole numbers, the lowest byte of each first, and so on."""
-    steps = np.diff(whole.astype("<i4"), prepend=np.int32(0)).astype("<i4")
-    return steps.view(np.uint8).reshape(-1, 4).T.tobytes()

@@ -231,10 +231,13 @@ def _compared(package: PackageData, series: Sequence[Series]) -> Iterator[str]:
 
 def _fit_words(series: Series, fit: FittedLaw) -> str:
     """Return the law fitted to the runs of a series, and how far they scatter about it."""
-    count, scatter = _scatter(series)
-    start = f"{capitalized(series.surface)}, {count} velocities:"
+    runs = [run for run in series.runs if not math.isnan(run.velocity_mps)]
+    velocities = {run.velocity_mps for run in runs}
+    start = f"{capitalized(series.surface)}, {len(velocities)} velocities:"
     if not fit.is_determined:
         return f"{start} the runs do not determine a velocity-dependent coefficient."
+    mean = math.fsum(run.mu for run in runs) / len(runs)
+    scatter = math.sqrt(math.fsum((run.mu - mean) ** 2 for run in runs) / len(runs))
     law = fit.law
     return (
         f"{start} fit μ = {number(law.mu_slow, 3)} at low and {number(law.mu_fast, 3)} at high "
@@ -264,11 +267,3 @@ def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:
         fit = fit_law([run.velocity_mps for run in series.runs], [run.mu for run in series.runs])
         if fit is not None:
             yield series, fit
-
-
-def _scatter(series: Series) -> tuple[int, float]:
-    """Return the number of velocities of a series, and the scatter about one coefficient."""
-    runs = [run for run in series.runs if not math.isnan(run.velocity_mps)]
-    mean = math.fsum(run.mu for run in runs) / len(runs)
-    scatter = math.sqrt(math.fsum((run.mu - mean) ** 2 for run in runs) / len(runs))
-    return len({run.velocity_mps for run in runs}), scatter

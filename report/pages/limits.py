@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 from report.assessment.assessment import Assessment
 from report.assessment.checks.sentence import subjects
@@ -22,27 +22,22 @@ from report.text.letter_case import capitalized
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the table of checks, the changes that would satisfy what is NG, and the warnings."""
-    motions = f" and motions ({package.part('motions')})" if package.assessment.has_motions else ""
-    warnings = list(_warnings(package))
+    done = package.assessment
+    motions = f" and motions ({package.part('motions')})" if done.has_motions else ""
+    # A contradiction of the plan is also among the requirements.
+    all_findings = findings(done.source, done.project, done.shaking)
+    of_input = [finding for finding in all_findings if finding.level is Level.WARNING]
+    warnings = [
+        (line.cell, f"{line.text}.", line.reason or "not acknowledged")
+        for line in lines(of_input, done.source.addresses)
+    ]
     columns = ("Cell", 1.2), ("Warning", 5.6), ("Reason given in the workbook", 3.2)
     return {
         "checks_caption": f"All checks but clearances ({package.part('plan')}){motions}",
-        "checks": all_checks(package.assessment),
-        "remedies": list(remedy_lines(package.assessment, evidence.remedies)),
+        "checks": all_checks(done),
+        "remedies": list(remedy_lines(done, evidence.remedies)),
         "warnings": headed(*columns, rows=warnings) if warnings else None,
     }
-
-
-def _warnings(package: PackageData) -> Iterator[Sequence[str]]:
-    """Yield cells, text and reason of each warning on the input.
-
-    A contradiction of the plan is also among the requirements.
-    """
-    done = package.assessment
-    listed = findings(done.source, done.project, done.shaking)
-    warnings = [finding for finding in listed if finding.level is Level.WARNING]
-    for line in lines(warnings, done.source.addresses):
-        yield line.cell, f"{line.text}.", line.reason or "not acknowledged"
 
 
 def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:

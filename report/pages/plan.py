@@ -69,6 +69,14 @@ def page(package: PackageData) -> Mapping[str, object]:
         # room before it.
         is_little = len(gaps) + len(arrays) <= 4
         places_first = bool(apart) or (is_short and not is_abreast) or is_little
+    if rules["parapet_over_cg_in"]:
+        over_cg = (
+            f"at least {package.rule_length('parapet_over_cg_in')} above the center of gravity"
+        )
+        over_cg += " of the array"
+    else:
+        mark = package.marks.of("parapet_over_cg_in")
+        over_cg = f"not below the center of gravity of the array{mark}"
     return {
         "sheet": printed.size.sheet,
         "width_in": number(printed.size.wide, 2),
@@ -91,7 +99,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         **_distances(package, gaps),
         "parapets": merged(_parapets(package), "Beside"),
         "parapet_height": package.rule_length("parapet_height_in"),
-        "parapet_over_cg": _over_cg(package),
+        "parapet_over_cg": over_cg,
         **_neighbors(package, apart),
     }
 
@@ -172,15 +180,6 @@ def _distances(package: PackageData, gaps: Sequence[NumberedGap]) -> Mapping[str
 
 def _numbers(gaps: Sequence[NumberedGap]) -> str:
     return ranged(str(gap.number) for gap in gaps)
-
-
-def _over_cg(package: PackageData) -> str:
-    """Return how far above the center of gravity a parapet has its top to qualify."""
-    if package.assessment.rules["parapet_over_cg_in"]:
-        least = package.rule_length("parapet_over_cg_in")
-        return f"at least {least} above the center of gravity of the array"
-    mark = package.marks.of("parapet_over_cg_in")
-    return f"not below the center of gravity of the array{mark}"
 
 
 def _neighbors(package: PackageData, apart: Sequence[PlanNeighbor]) -> Mapping[str, object]:

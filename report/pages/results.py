@@ -141,12 +141,16 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
     analysis, head = array.analysis, required("")
     factor = f"{statistic(analysis.basis)}, {package.marks.clause('analysis_factor')}"
     floor_m = array.floor_m or math.nan  # peer review removes it
+    floor = "none; the analysis is peer reviewed"
+    if not package.data.is_peer_reviewed:
+        share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
+        floor = f"{share} % of prescriptive, {package.marks.clause('analysis_floor')}"
     # The keys are those of results.json, by which changes are known.
     rows: Sequence[tuple[str, str, float, str, str]] = (
         ("mean_prd_m", "Mean", analysis.mean_m, "", "of the motions"),
         ("largest_prd_m", "Largest", analysis.largest_m, "", "of the motions"),
         ("computed_m", f"Analysis: {factor}", analysis.value_m, array.overridden.analysis, ""),
-        ("floor_m", f"Floor: {_floor_words(package)}", floor_m, package.marks.floor(array), ""),
+        ("floor_m", f"Floor: {floor}", floor_m, package.marks.floor(array), ""),
         (
             "design_m",
             "Design",
@@ -165,10 +169,3 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
             ),
             kind=bar(is_changed, "total"),
         )
-
-
-def _floor_words(package: PackageData) -> str:
-    if package.data.is_peer_reviewed:
-        return "none; the analysis is peer reviewed"
-    share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
-    return f"{share} % of prescriptive, {package.marks.clause('analysis_floor')}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
@@ -25,6 +25,12 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
     ]
     needed = partial(answer, end=study_input.mus[0], mark="≤", decimals=FRICTION_DECIMALS)
     largest = partial(answer, end=study_input.slopes_deg[-1], mark="≥", decimals=SLOPE_DECIMALS)
+    rule, floor_alone = results.plan.design_rule, []
+    # The floor grows with S_DS and knows neither friction nor slope: from the first intensity at
+    # which it is larger than allowed, none of them is enough.
+    beyond = np.flatnonzero(rule.floor_m > allowed_m)
+    if rule.has_value and beyond.size:
+        floor_alone.append(study_input.intensities[beyond[0]])
     answers = []
     for name in dict.fromkeys((results.leading, MEAN)):
         mus = results.minimum_frictions(building, name, allowed_m)
@@ -38,20 +44,11 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
         "study/allowed",
         f"Least friction and largest slope{on_building(results, building, ', building ')}",
         id=f"allowed-{building}",
-        floor_alone=list(_floor_alone(results, allowed_m)),
+        floor_alone=floor_alone,
         frictions=frictions,
         slopes=slopes,
         answers=answers,
     )
-
-
-def _floor_alone(results: StudyResults, allowed_m: float) -> Iterator[float]:
-    """Yield from which intensity on no friction and no slope is enough, because of the floor."""
-    rule = results.plan.design_rule
-    # The floor grows with S_DS and knows neither friction nor slope.
-    beyond = np.flatnonzero(rule.floor_m > allowed_m)
-    if rule.has_value and beyond.size:
-        yield results.plan.input.intensities[beyond[0]]
 
 
 def _allowed_table(

@@ -79,6 +79,11 @@ def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
 
     `about` is what else determines the results: the input, the hazard curve, seeds.
     """
+    # Little-endian whatever the machine: a cluster of several agrees on the identity.
+    digest, cases = hashlib.sha256(), campaign.cases
+    digest.update(cases.building.astype("<i8").tobytes())
+    for values in (cases.slope_rad, cases.mu, cases.intensity):
+        digest.update(values.astype("<f8").tobytes())
     runs = {
         "schema_version": SCHEMA_VERSION,
         "program": program(),
@@ -86,7 +91,7 @@ def manifest_of(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, Any]:
         "model": {"matters_m": SETTINGS.matters_m, "matters_share": SETTINGS.matters_share,
                   "tolerance": SETTINGS.tolerance},
         "motions": [[_motion(m) for m in motions] for motions in campaign.motions],
-        "cases": {"count": len(campaign.cases), "sha256": _cases_sha256(campaign)},
+        "cases": {"count": len(cases), "sha256": digest.hexdigest()},
         "rows": campaign.rows,
         "parts": [[part.start, part.stop] for part in campaign.parts],
     }  # fmt: skip
@@ -116,15 +121,6 @@ def _motion(motion: Motion) -> dict[str, Any]:
         "factor_for_intensity_1": motion.scale,
         "polarities": list(motion.signs),
     }
-
-
-def _cases_sha256(campaign: Campaign) -> str:
-    # Little-endian whatever the machine: a cluster of several agrees on the identity.
-    digest, cases = hashlib.sha256(), campaign.cases
-    digest.update(cases.building.astype("<i8").tobytes())
-    for values in (cases.slope_rad, cases.mu, cases.intensity):
-        digest.update(values.astype("<f8").tobytes())
-    return digest.hexdigest()
 
 
 def check_earlier(folder: Path, manifest: Mapping[str, Any]) -> int:

@@ -155,20 +155,17 @@ def _places(
         lines = [line for line in parts if len(line)]
         if not lines:
             continue
-        shares = (_dense(max(lines, key=len)) - low) / span
+        longest = max(lines, key=len)
+        # Its own points may all be at the edges, where no label is: it gets 300.
+        index = np.arange(len(longest))
+        fine = np.linspace(0.0, index[-1], 300)
+        dense = np.stack([np.interp(fine, index, values) for values in longest.T], axis=-1)
+        shares = (dense - low) / span
         inside = shares[((shares > 0.04) & (shares < 0.96)).all(axis=1)]
         if inside.size:
             nearest = np.abs(inside[:, 1] - height - 0.145 * (count % 3)).argmin()
             x, y = low + span * inside[nearest]
             yield float(x), float(y)
-
-
-def _dense(line: Floats) -> Floats:
-    """Return a line with many points, shape (m, 2)."""
-    # Its own may all be at the edges, where no label is.
-    index = np.arange(len(line))
-    fine = np.linspace(0.0, index[-1], 300)
-    return np.stack([np.interp(fine, index, values) for values in line.T], axis=-1)
 
 
 def _levels(unit: Unit) -> tuple[float, ...]:

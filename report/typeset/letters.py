@@ -32,12 +32,8 @@ def undrawable(text: str, *, is_in_figures: bool = False) -> str:
         return ""
     letters = dict.fromkeys(_SURE.sub("", text))
     # The figures use the fonts of a package alone.
-    missing = [letter for letter in letters if not _is_shipped(letter)]
+    missing = [letter for letter in letters if ord(letter) not in _shipped()]
     return "".join(c for c in missing if is_in_figures or not _is_on_machine(c))
-
-
-def _is_shipped(letter: str) -> bool:
-    return ord(letter) in _shipped()
 
 
 @cache

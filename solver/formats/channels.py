@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import datetime as dt
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 
 import numpy as np
@@ -98,7 +98,12 @@ def motion_file(
             Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2, notes=channel_notes)
         )
         all_notes += channel_notes if alone else [f"{name}: {note}" for note in channel_notes]
-    all_notes += _unit_notes(records)
+    peaks = sorted((float(np.abs(record.a_mps2).max()), record.name) for record in records)
+    if len(peaks) > 1:
+        (below, _), (peak, name) = peaks[-2:]
+        if 0.0 < below * _OTHER_UNIT <= peak:
+            times = f"{peak / below:.0f} times the peaks of the others"
+            all_notes.append(f"{name} reaches {times}: is it in their unit?")
     mean = np.array([record.a_mps2.mean() for record in records])
     if (
         len(mean) == 3
@@ -113,15 +118,6 @@ def motion_file(
         notes=tuple(dict.fromkeys(all_notes)),
         start=start or _start(source),
     )
-
-
-def _unit_notes(records: Sequence[Record]) -> Iterator[str]:
-    """Note a channel whose peak is that of others in another unit."""
-    peaks = sorted((float(np.abs(record.a_mps2).max()), record.name) for record in records)
-    (below, _), (peak, name) = peaks[-2:] if len(peaks) > 1 else ((0.0, ""), peaks[0])
-    if 0.0 < below * _OTHER_UNIT <= peak:
-        times = f"{peak / below:.0f} times the peaks of the others"
-        yield f"{name} reaches {times}: is it in their unit?"
 
 
 def time_in(text: str, *formats: str) -> dt.datetime | None:

@@ -135,6 +135,7 @@ def response_spectrum(
     with np.errstate(divide="ignore", over="ignore"):
         omega = 2.0 * math.pi / periods
     rigid = ~np.isfinite(omega)
+    # A rigid oscillator follows the record: its ordinate is the peak acceleration.
     spectrum = np.full(omega.shape, np.abs(a).max())
     steps = steps_per_interval(dt_s, np.where(rigid, 0.0, omega))
     for step_count in np.unique(steps[~rigid]).tolist():
@@ -272,18 +273,16 @@ def factor_to_target(
         )
     count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
     periods = np.geomspace(shortest_s, longest_s, max(count, 2))
-    logs = [_log_spectrum(record, periods) for record in horizontals]
+    logs = []
+    for record in horizontals:
+        # It has no logarithm.
+        if not record.a_mps2.any():
+            raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a target")
+        spectrum = response_spectrum(record.a_mps2, record.dt_s, periods, DAMPING)
+        logs.append(np.log(spectrum / UNITS["g"]))
     # Least squares of ln(factor spectrum / target): the factor is the mean of the logarithms.
     difference = np.log(target(1.0 / periods)) - np.mean(logs, axis=0)
     return float(np.exp(difference.mean()))
-
-
-def _log_spectrum(record: Record, periods_s: Floats) -> Floats:
-    # It has no logarithm.
-    if not record.a_mps2.any():
-        raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a target")
-    spectrum = response_spectrum(record.a_mps2, record.dt_s, periods_s, DAMPING)
-    return np.asarray(np.log(spectrum / UNITS["g"]))
 
 
 def _check_design(s_ds_g: float, s_d1_g: float, t_l_s: float) -> None:
@@ -292,6 +291,7 @@ def _check_design(s_ds_g: float, s_d1_g: float, t_l_s: float) -> None:
         for name, value, unit in (("S_DS", s_ds_g, "g"), ("S_D1", s_d1_g, "g"), ("T_L", t_l_s, "s"))
         if not 0.0 < value < math.inf
     ]
+    # ASCE 7, 11.4.6: the spectrum falls as 1/T from T_S to T_L, which is therefore the longer one.
     if not problems and t_l_s <= s_d1_g / s_ds_g:
         problems = [f"T_L is {t_l_s:g} s; enter more than T_S = {s_d1_g / s_ds_g:g} s"]
     raise_any(problems)

@@ -48,7 +48,8 @@ class AxisScene:
 class Outcome(NamedTuple):
     """Result of a method, along the slope: [m], [m/s], [s].
 
-    The largest speed is that of the exact kernel; NaN by the other methods.
+    The largest speed and the events are those of the exact kernel, the events where a history is
+    asked for: time, kind (see `kernels.one_axis`) and s, shape (m, 3). Other methods have none.
     """
 
     followed: bool
@@ -59,6 +60,7 @@ class Outcome(NamedTuple):
     t_peak: float
     n_stops: int
     w_max: float = math.nan
+    events: Floats = np.empty((0, 3))
 
 
 Parameters = Mapping[str, float]
@@ -131,17 +133,6 @@ def minimum_normal(scene: AxisScene) -> tuple[float, float]:
     return n_min_and_time
 
 
-def exact_events(scene: AxisScene, n_stops: int) -> Floats:
-    """Return time, kind (see `kernels.one_axis`) and s of each event of a run with n_stops stops.
-
-    Shape (m, 3).
-    """
-    # A slip before each stop, and one that may go on at the end.
-    rows = np.empty((2 * n_stops + 1, 3))
-    n_events = _run_exact(scene, rows)[-1]
-    return rows[: int(n_events)]
-
-
 def _vertical(scene: AxisScene) -> tuple[Floats | None, Floats | None]:
     """Return the vertical record and its bounds as the exact kernels take them."""
     return (scene.az, scene.z) if scene.az.size else (None, None)
@@ -159,14 +150,18 @@ def _run_exact(
 
 def _exact(scene: AxisScene, _: Parameters, samples: Floats) -> Outcome:
     c, outcome = scene, Outcome(True, *_run_exact(scene, None)[:-1])
-    if samples.size:
-        events = exact_events(scene, outcome.n_stops)
-        one_axis.fill_history(
-            c.ax, _vertical(c)[0], c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events, samples
-        )
-        # As the run has them, so that history and result agree to the last bit.
-        samples[:, -1] = outcome.s_end, outcome.w_end
-    return outcome
+    if not samples.size:
+        return outcome
+    # A second run, of which the first has told the room: a slip before each stop, and one that may
+    # go on at the end.
+    rows = np.empty((2 * outcome.n_stops + 1, 3))
+    events = rows[: _run_exact(scene, rows)[-1]]
+    one_axis.fill_history(
+        c.ax, _vertical(c)[0], c.dt, c.sn, c.cs, c.mu, c.g, c.scale, events, samples
+    )
+    # As the run has them, so that history and result agree to the last bit.
+    samples[:, -1] = outcome.s_end, outcome.w_end
+    return outcome._replace(events=events)
 
 
 EXACT = Method(

@@ -204,7 +204,10 @@ def _chosen(
         # The costly run: once, and only where no bound shows that it is not needed.
         if math.isinf(at_most):
             both = two_axes.run_bounded(scene, settings.tolerance, bounds)
-            if _is_far_across(both, settings):
+            # Where one axis would do, its PRD less that share of it is at most the PRD in two: what
+            # goes farther across than may be neglected beside such a PRD settles it.
+            share = 1.0 - settings.matters_share
+            if share > 0.0 and both.across_m > settings.bound_m(both.prd_m / share):
                 return Model.TWO_AXES, both, both
     # Runs in one axis cost about one pass over the record each: both are always made.
     vertical = _run_along(scene, bounds)
@@ -242,13 +245,6 @@ def _second_axis_at_most(scene: Scene, settings: Settings, first: int) -> float:
     return effect
 
 
-def _is_far_across(both: SlideResult, settings: Settings) -> bool:
-    """Whether a run in two axes goes farther across than may be neglected beside any other PRD."""
-    # Where one axis would do, its PRD less that share of it is at most the PRD in two.
-    share = 1.0 - settings.matters_share
-    return share > 0.0 and both.across_m > settings.bound_m(both.prd_m / share)
-
-
 def _run_along(scene: Scene, bounds: RecordBounds | None) -> SlideResult:
     return one_axis.run_bounded(scene, bounds) if bounds else one_axis.run(scene)
 
@@ -263,6 +259,7 @@ def _explain(
     if scene.az_mps2.size:
         level = one_axis.run(_level(scene))
     if both is None:
+        # A record of zeros changes nothing: no run is made of it.
         has_second = scene.ay_mps2.any()
         both = two_axes.run(scene, settings.tolerance) if has_second else vertical
     crosswise, lesser = _left_out(vertical, both), _left_out(level, vertical, both)
@@ -286,6 +283,7 @@ def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
         for result, name in product(fuller, _LENGTHS)
         if result is not chosen
     ]
+    # A model that gives no displacement might change anything.
     return math.inf if any(map(math.isnan, effects)) else max(effects, default=0.0)
 
 

@@ -23,11 +23,10 @@ from solver.sliding.method import (
     Method,
     Outcome,
     Parameters,
-    exact_events,
     minimum_normal,
 )
 
-_NO_HISTORY = np.empty((2, 0))
+_NO_HISTORY, _NO_EVENTS = np.empty((2, 0)), np.empty((0, 3))
 
 
 class RecordBounds(NamedTuple):
@@ -45,44 +44,46 @@ def bounds_of(scene: Scene) -> RecordBounds:
 
 def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideResult:
     """Slide a checked scene along the slope by a method; cross-slope shaking is neglected."""
-    return _run(method, parameters, prepared(scene), _NO_HISTORY)
+    return _run(method, parameters, prepared(scene), _NO_HISTORY)[0]
 
 
 def run_bounded(scene: Scene, bounds: RecordBounds) -> SlideResult:
     """Return `run` of a scene whose bounds are known, by the exact method."""
-    about, (az, z) = scene, (None, None)
-    if about.az_mps2.size:
-        az, z = about.az_mps2, bounds.z
+    # None, not zeros: the kernel is compiled once more for it (`slide_exact`).
+    az, z = (scene.az_mps2, bounds.z) if scene.az_mps2.size else (None, None)
     n_min_g, cs, error_m, *run = kernel.slide_checked(
-        about.ax_mps2,
+        scene.ax_mps2,
         az,
         bounds.x,
         z,
-        about.dt_s,
-        about.slope_rad,
-        about.friction.mu_slow,
-        about.g_mps2,
-        about.scale,
+        scene.dt_s,
+        scene.slope_rad,
+        scene.friction.mu_slow,
+        scene.g_mps2,
+        scene.scale,
     )
     outcome = Outcome(True, *run)
     if n_min_g < 0.0 or not outcome.s_max - outcome.s_min < math.inf:
         # Tells what gives no displacement.
-        return _run(EXACT, {}, prepared(scene, bounds), _NO_HISTORY)
+        return _run(EXACT, {}, prepared(scene, bounds), _NO_HISTORY)[0]
     return result_of(outcome, cs, n_min_g, error_m)
 
 
 def run_history(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideHistory:
     """Return the displacement history of `run`; only the exact method gives events."""
     samples = np.full((2, scene.ax_mps2.size), np.nan)
-    made = prepared(scene)
-    result = _run(method, parameters, made, samples)
+    result, events = _run(method, parameters, prepared(scene), samples)
+    cs = math.cos(scene.slope_rad)
     return SlideHistory(
         t_s=sample_times(scene),
         u_m=samples[0],
         v_mps=samples[1],
         across_m=NO_RECORD,
         across_mps=NO_RECORD,
-        events=_events(made, result) if method is EXACT else (),
+        events=tuple(
+            Event(t_s=t, kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP, u_m=cs * s)
+            for t, kind, s in events.tolist()
+        ),
         result=result,
     )
 
@@ -94,33 +95,28 @@ def rounding(scene: AxisScene) -> float:
     return error_m
 
 
-def _run(method: Method, parameters: Parameters, scene: AxisScene, samples: Floats) -> SlideResult:
-    """Run a scene; `samples` of shape (2, n) is filled with u and u'; of shape (2, 0) it is not."""
+def _run(
+    method: Method, parameters: Parameters, scene: AxisScene, samples: Floats
+) -> tuple[SlideResult, Floats]:
+    """Run a scene, and return its events as well, if `samples` is of shape (2, n).
+
+    It is filled with u and u'; of shape (2, 0) it is not.
+    """
     # Before any method: all of them assume N >= 0 throughout.
     n_min_g, t_uplift = minimum_normal(scene)
     if n_min_g < 0.0:
-        return without_displacement(Status.UPLIFT, n_min_g, t_uplift)
+        return without_displacement(Status.UPLIFT, n_min_g, t_uplift), _NO_EVENTS
     outcome = method.follow(scene, dict(method.parameters) | dict(parameters), samples)
     if not (outcome.followed and math.isfinite(outcome.s_max - outcome.s_min)):
         samples[:] = np.nan
-        return without_displacement(Status.DIVERGED, n_min_g, math.nan)
+        return without_displacement(Status.DIVERGED, n_min_g, math.nan), _NO_EVENTS
     # Methods give s and s' along the slope; displacements are horizontal, u = s cos(theta).
     samples *= scene.cs
-    error_m = rounding(scene) if method is EXACT else math.nan
-    return result_of(outcome, scene.cs, n_min_g, error_m)
-
-
-def _events(scene: AxisScene, result: SlideResult) -> tuple[Event, ...]:
-    """Return the events of the exact method: one slip before each stop, and at most one more."""
-    if math.isnan(result.prd_m):
-        return ()
-    return tuple(
-        Event(
-            t_s=t, kind=EventKind.STOP if kind == kernel.STOP else EventKind.SLIP, u_m=scene.cs * s
-        )
-        # Another run, for which the number of stops says how much room the events need.
-        for t, kind, s in exact_events(scene, result.n_stops).tolist()
+    # Not of a method that runs the exact one in another scene: its events are of that scene.
+    error_m, events = (
+        (rounding(scene), outcome.events) if method is EXACT else (math.nan, _NO_EVENTS)
     )
+    return result_of(outcome, scene.cs, n_min_g, error_m), events
 
 
 def result_of(outcome: Outcome, cs: float, n_min_g: float, error_m: float) -> SlideResult:

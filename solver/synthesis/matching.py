@@ -256,16 +256,12 @@ def matched(frame: MatchingFrame, a: Floats) -> Floats:
             if excess <= _CLOSE:
                 break
             # The rigid oscillator stays last.
-            more_hz = np.union1d(frame.freq_hz[:-1], between.freq_hz[_minima(ratio)])
+            inner = ratio[1:-1]
+            is_least = (inner <= ratio[:-2]) & (inner < ratio[2:]) & (inner < _LEAST)
+            low_hz = between.freq_hz[np.flatnonzero(is_least) + 1]
+            more_hz = np.union1d(frame.freq_hz[:-1], low_hz)
             frame = replace(frame, freq_hz=np.append(more_hz, frame.freq_hz[-1]))
     return best
-
-
-def _minima(ratio: Floats) -> _Samples:
-    """Places of the minima below 1."""
-    inner = ratio[1:-1]
-    is_least = (inner <= ratio[:-2]) & (inner < ratio[2:]) & (inner < _LEAST)
-    return np.flatnonzero(is_least) + 1
 
 
 def _corrected(frame: MatchingFrame, a: Floats) -> Floats:

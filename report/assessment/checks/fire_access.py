@@ -49,6 +49,7 @@ def pathway_check(done: Assessment, gap: ClearanceCheck, pathway_m: float, index
         limit=demand(pathway_m, Quantity.SIZE),
         sense=Sense.AT_LEAST,
         clause="fire code, as entered",
+        # False for NaN: without a displacement nothing is known to be left.
         is_satisfied=left_m >= pathway_m * (1.0 - _NOISE),
         remedy="Widen the clearance, or reduce the displacement.",
         places=(Place("clearances", index, "pathway_m"),),
@@ -61,7 +62,13 @@ def of_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Itera
     The pairs of the plan that lack a clearance do not say so, if they are given: those that are
     near, and those that face each other where a pathway may be left too narrow.
     """
-    silent = [near for near in pairs if near.is_missing or _may_narrow(near, data.site.fire_lane_m)]
+    silent = []
+    for near in pairs:
+        is_within = not near.given and near.gap_m <= near.reach_m + data.site.fire_lane_m
+        # Those that face each other: a pathway does not run across corners.
+        may_narrow = is_within and direction_of(near, 0.0) is not Direction.ANY
+        if near.is_missing or may_narrow:
+            silent.append(near)
     for array in data.arrays:
         rows = [(index, row) for index, row in enumerate(data.clearances) if row.array == array.id]
         blank = [index for index, row in rows if row.pathway_m is None]
@@ -82,13 +89,6 @@ def of_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Itera
             places=tuple(Place("clearances", index, "pathway_m") for index in blank)
             or (Place("clearances"),),
         )
-
-
-def _may_narrow(near: PlanNeighbor, lane_m: float) -> bool:
-    """Whether no clearance is given where a fire pathway [m] may be left too narrow."""
-    is_within = not near.given and near.gap_m <= near.reach_m + lane_m
-    # Those that face each other: a pathway does not run across corners.
-    return is_within and direction_of(near, 0.0) is not Direction.ANY
 
 
 # Largest plan dimension of an array section [m]: 150 ft, which local codes amend: hence †.

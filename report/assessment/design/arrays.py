@@ -222,6 +222,11 @@ def assess_array(
     floor_m = provisions.analysis_floor_m(rules, prescriptive, is_reviewed=data.is_peer_reviewed)
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
+    supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
+    # Both ratios of the check rise with the friction that a run demands. Without runs, friction
+    # alone limits what is transmitted.
+    all_runs = chain.from_iterable(motion.runs for motion in runs)
+    demand = max((run.solution.friction_demand for run in all_runs), default=math.inf)
     return ArrayAssessment(
         array=array,
         motions=runs,
@@ -232,7 +237,7 @@ def assess_array(
         is_permitted=(motions_qualify or limits.route is Route.PRESCRIPTIVE)
         and all(check.ok for check in limits.of_route),
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
-        tipping=_nearest_to_tipping(array, runs),
+        tipping=tipping_at(demand, array.friction, supports),
         uplift=min(
             (motion.uplift for motion in runs), key=attrgetter("n_min_g"), default=NO_UPLIFT
         ),
@@ -252,15 +257,6 @@ def marked(item: ArrayAssessment, adopted: ArrayAssessment) -> ArrayAssessment:
         design=mark_of(item.design_m, adopted.design_m) or opened,
     )
     return replace(item, overridden=marks)
-
-
-def _nearest_to_tipping(array: Array, motions: Sequence[MotionRun]) -> Tipping:
-    supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
-    # Both ratios of the check rise with the friction that a run demands. Without runs, friction
-    # alone limits what is transmitted.
-    runs = chain.from_iterable(motion.runs for motion in motions)
-    demand = max((run.solution.friction_demand for run in runs), default=math.inf)
-    return tipping_at(demand, array.friction, supports)
 
 
 def _design_m(

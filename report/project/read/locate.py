@@ -76,7 +76,11 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     positions = [CellPosition(sheet.title, top, column) for column in range(left, right + 1)]
     # Formulas are not read.
     answers = ANSWER_HEADINGS.get(section.key, frozenset())
-    gone = tuple(_gone_headings(book, section, positions))
+    gone = []
+    for old_input in GONE.get(section.key, ()):
+        for position in positions:
+            if label_key(found_at(book, position).value) == label_key(old_input.label):
+                gone.append((old_input, position))
     passed = {position for _, position in gone}
     headings = [
         p
@@ -93,19 +97,10 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
         columns=columns,
         rows=[row for row in range(top + 1, last_row + 1) if row not in below],
         others=tuple(further),
-        gone=gone,
+        gone=tuple(gone),
         absent=tuple(absent),
         problems=tuple(problems),
     )
-
-
-def _gone_headings(
-    book: OpenBook, section: SheetSection, headings: Sequence[CellPosition]
-) -> Iterator[tuple[GoneInput, CellPosition]]:
-    for gone in GONE.get(section.key, ()):
-        for position in headings:
-            if label_key(found_at(book, position).value) == label_key(gone.label):
-                yield gone, position
 
 
 def table_named(book: OpenBook, section: SheetSection) -> _Place | None:
@@ -139,7 +134,13 @@ def _headings(book: OpenBook, section: SheetSection) -> _Place:
 
 def _heading_row(book: OpenBook, section: SheetSection, sheet: Worksheet) -> tuple[int, list[int]]:
     """Return the row of a sheet with the most headings of a section, and their columns."""
-    fields, taken = fields_by_label(section), _rows_of_others(sheet, section)
+    # Sections have headings in common, and one without a table must not read that of another.
+    names = {str(table.name).casefold(): table.ref for table in sheet.tables.values()}
+    further = [
+        ref for name, ref in names.items() if name.endswith("_table") and name != section.table_name
+    ]
+    taken = {bounds[1] for ref in further if (bounds := bounds_of(ref))}
+    fields = fields_by_label(section)
     rows: dict[int, list[int]] = {0: []}
     for position, label in labels(book, sheet):
         if position.row not in taken and label in fields:
@@ -163,15 +164,6 @@ def is_table_absent(book: OpenBook, section: SheetSection) -> bool:
     if sheets_titled(book, section.sheet) or table_area(book, section):
         return False
     return _sheet_renamed(book, section) is None
-
-
-def _rows_of_others(sheet: Worksheet, section: SheetSection) -> set[int]:
-    # Sections have headings in common, and one without a table must not read that of another.
-    names = {str(table.name).casefold(): table.ref for table in sheet.tables.values()}
-    further = [
-        ref for name, ref in names.items() if name.endswith("_table") and name != section.table_name
-    ]
-    return {bounds[1] for ref in further if (bounds := bounds_of(ref))}
 
 
 def _check_reach(book: OpenBook, sheet: Worksheet, top: int) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -85,18 +84,15 @@ def shows_nothing(code: str, value: object) -> bool:
 def _misleading(section: _Section, unit: str) -> str:
     if scale := _SCALE.search(section.digits):
         return f"divided by {1000 ** len(scale[1]):,}" if len(scale[1]) < 5 else "divided"
-    unit_of_column, named = unit_named(unit) or unit, list(_units_named(section.text))
+    unit_of_column, named = unit_named(unit) or unit, []
+    for word in _WORDS.findall(section.text):
+        bare = word.strip(".-–+~&!<>$_") or word
+        symbol = unit_named(bare)
+        if symbol and bare.casefold() not in _ALSO_A_WORD:
+            named.append((bare, symbol))
     if not named or unit_of_column in (name for _, name in named):
         return ""
     return f"in {named[0][0]}"
-
-
-def _units_named(text: str) -> Iterator[tuple[str, str]]:
-    """Yield the words of a text that name a unit, each with the symbol of the unit."""
-    for word in _WORDS.findall(text):
-        bare = word.strip(".-–+~&!<>$_") or word
-        if (unit := unit_named(bare)) and bare.casefold() not in _ALSO_A_WORD:
-            yield bare, unit
 
 
 @lru_cache(maxsize=256)

@@ -104,6 +104,7 @@ def read_as(
     """Read every field of a whole input, with the errors of single cells and those of a check."""
     gathered = Gathered()
     for section in sections:
+        # A rare sheet that was never added: its inputs have their defaults.
         if section.may_be_absent and is_absent(book, section):
             defaults = {entry.name: entry.default for entry in section.entries}
             gathered.inputs[section.key] = [] if section.is_table else [defaults]
@@ -117,6 +118,7 @@ def read_as(
         except InputError as error:
             gathered.unfound.add(section.key)
             gathered.add(Place(section.key), error.parts)
+    # Also where cells could not be read: every error is told at once.
     gathered.take(check(gathered.inputs, partial(where, gathered.addresses)))
     hidden = unseen(book, gathered.used)
     marks, titles = by_cell(hidden), book.book.sheetnames
@@ -130,6 +132,7 @@ def read_as(
         inputs=gathered.inputs,
         echo=tuple(
             replace(row, unseen=marks.get(row.address, ""))
+            # In the order of the sheets and rows, wherever a user has moved them.
             for row in sorted(
                 gathered.echo,
                 key=lambda row: (titles.index(row.sheet), coordinate_to_tuple(row.cell)[0]),
@@ -199,6 +202,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
                 twice = f"label '{entry.heading}' appears twice, also in {labeled.address}"
                 gathered.add(place, [Problem(twice, "keep one", position.address)])
         cell = found_at(book, position)
+        # The cell of the unit is read with the value, and must be in sight as it.
         if not cell.is_blank and column.heading != position:
             gathered.use(place, found_at(book, column.heading))
         cells_read.append(_Typed(entry, place, cell, column))
@@ -206,7 +210,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
     # What a blank cell is computed from must have been read.
     for typed_cell in sorted(cells_read, key=lambda typed_cell: typed_cell.is_computed):
-        _read_field(typed_cell, {}, gathered)
+        _read_field(typed_cell, row, {}, gathered)
 
 
 def _refuse_gone(gone: GoneInput, place: Place, cell: Found, gathered: Gathered) -> None:
@@ -235,17 +239,19 @@ def _read_table(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
         }
         if not all(cell.is_blank for cell in cells.values()):
             rows = gathered.inputs[section.key]
-            rows.append({name: section.entry(name).default for name in table.absent})
+            row = {name: section.entry(name).default for name in table.absent}
+            rows.append(row)
             for entry in section.entries:
                 if cell := cells.get(entry.name):
                     place = Place(section.key, len(rows) - 1, entry.name)
                     gathered.addresses[place] = cell.address
-                    _read_field(
-                        _Typed(entry, place, cell, table.columns[entry.name]), cells, gathered
-                    )
+                    typed = _Typed(entry, place, cell, table.columns[entry.name])
+                    _read_field(typed, row, cells, gathered)
         for gone, heading in table.gone:
             position = CellPosition(sheet, number, heading.column)
             _refuse_gone(gone, Place(section.key), found_at(book, position), gathered)
+    # A heading states the unit of its column: it is read with the values, and must be in sight as
+    # they.
     read = {place.field for place, _ in gathered.used if place.section == section.key}
     for name, column in table.columns.items():
         if name in read:
@@ -267,10 +273,11 @@ class _Typed:
         return self.cell.is_blank and self.entry.computed is not None
 
 
-def _read_field(typed: _Typed, cells: Mapping[str, Found], gathered: Gathered) -> None:
-    """Read an input into its row; `cells` are those of its row by field."""
+def _read_field(
+    typed: _Typed, row: dict[str, Any], cells: Mapping[str, Found], gathered: Gathered
+) -> None:
+    """Read an input into its row of values; `cells` are those of the row by field."""
     entry, place, cell, column = typed.entry, typed.place, typed.cell, typed.column
-    row = gathered.inputs[place.section][place.row]
     gathered.use(place, cell)
     try:
         if not cell.is_blank:

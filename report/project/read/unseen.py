@@ -176,7 +176,12 @@ class _Sight:
     def __init__(self, sheet: Worksheet) -> None:
         self._sheet = sheet
         self._is_hidden = sheet.sheet_state != "visible"
-        self._rows = dict(_hidden_rows(sheet))
+        self._rows: dict[int, Concealment] = {}
+        filtered = tuple(islice(_filtered(sheet), _MOST_FILTERS))
+        for row, dimension in sheet.row_dimensions.items():
+            if dimension.hidden or _is_less(dimension.height, LEAST_HEIGHT):
+                is_filtered = any(row in rows for rows in filtered)
+                self._rows[row] = Concealment.FILTERED if is_filtered else Concealment.HIDDEN
         self._columns = [
             range(column.min or 0, (column.max or 0) + 1)
             for column in sheet.column_dimensions.values()
@@ -203,14 +208,6 @@ class _Sight:
         if row in self._rows:
             return (self._rows[row],)
         return (Concealment.HIDDEN,) if any(column in columns for columns in self._columns) else ()
-
-
-def _hidden_rows(sheet: Worksheet) -> Iterator[tuple[int, Concealment]]:
-    filtered = tuple(islice(_filtered(sheet), _MOST_FILTERS))
-    for row, dimension in sheet.row_dimensions.items():
-        if dimension.hidden or _is_less(dimension.height, LEAST_HEIGHT):
-            is_filtered = any(row in rows for rows in filtered)
-            yield row, Concealment.FILTERED if is_filtered else Concealment.HIDDEN
 
 
 def _is_less(size: float | None, minimum: float) -> bool:
