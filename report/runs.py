@@ -142,6 +142,7 @@ class Runs:
 
     def knowing(self, known: Reference) -> Runs:
         """Return the same runs, but of some arrays those in some orientations alone."""
+        # Shallow: what either of them begins is there for both.
         runs = copy(self)
         runs._known = known
         return runs
@@ -163,6 +164,7 @@ class Runs:
                     ]
                     self._batches[scene, motion.id, names] = [
                         self._run(scene, array, motion, orientation)
+                        # Names that this motion does not have leave none: then all are run.
                         for orientation in known or motion.orientations
                     ]
 

@@ -122,12 +122,14 @@ def check_plain(
     for part in path.relative_to(within).parts:
         place /= part
         try:
+            # Not `stat`: a link is looked at itself, not what it leads to.
             status = place.lstat()
         except FileNotFoundError:
             return
         wants_folder = is_folder or place != path
         if stat.S_ISLNK(status.st_mode):
             place_kind = f"is a link to {os.readlink(place)}"
+        # A file that is opened in its place, not replaced, would change under its other name.
         elif in_place and stat.S_ISREG(status.st_mode) and status.st_nlink > 1:
             place_kind = "is also the file of another name (a hard link)"
         elif (stat.S_ISDIR if wants_folder else stat.S_ISREG)(status.st_mode):

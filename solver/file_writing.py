@@ -61,6 +61,7 @@ def write_all(files: Mapping[str, bytes], folder: Path) -> None:
                     file.write(content)
                     file.flush()
                     os.fsync(file.fileno())
+            # Only now, with every content on disk: a disk that is full changes nothing.
             for part, name in zip(parts, files, strict=True):
                 target = folder / name
                 _replace(part, target, sweep, undo)

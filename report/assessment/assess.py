@@ -128,6 +128,7 @@ def reassess(
                 motion for motion in shaking.prepared if motion.motion_id not in without
             ),
         )
+    # The limits on motions depend on these parts of the input alone.
     is_known = not without and all(getattr(project, k) == getattr(done.project, k) for k in same)
     acceptance = done.acceptance if is_known else None
     return _assess(project, done.source, shaking, done.runs, acceptance, extent)

@@ -172,6 +172,7 @@ def _dimension(plan: PlanSheet, words: str, equal: Sequence[Lane]) -> None:
     """Write what is provided in one of the gaps that are equal, beside its number."""
     long = width_in(words) + 0.06
     tall = LINE_IN - 0.02
+    # Between the facing sides first, then beyond their ends.
     for overhang in (0.0, _OVERHANG_IN):
         places: list[tuple[Lane, float]] = []
         for lane in equal:

@@ -123,6 +123,7 @@ def read_components(
     except InputError as error:
         return [*faults, *_faults(index, "record", error, row)]
     faults += [*_mismatches(index, records), *_unscalable(index, row, records)]
+    # A field that could not be read is not in the row, and is told already.
     if faults or any(name not in row for name in MotionInput.model_fields):
         return faults
     return _processed(index, MotionInput(**row), components, records)

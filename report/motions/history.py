@@ -46,6 +46,7 @@ class TargetSpectrum:
 
     def ordinates(self, periods_s: Floats) -> Floats:
         """Return accelerations [g] at periods [s]; NaN outside its range."""
+        # The ends are inside, whatever the rounding of 1 / f makes of them.
         inside = (periods_s >= self.from_s * (1.0 - 1e-9)) & (periods_s <= self.to_s * (1.0 + 1e-9))
         return np.where(inside, self.at(1.0 / periods_s), math.nan)
 
@@ -254,6 +255,8 @@ def _scale(data: ProjectInput, row: MotionInput, records: Mapping[str, Record]) 
         case Scaling.FACTOR:
             return float(row.scale_value or 1.0)
         case Scaling.PPA:
+            # The PPA is that of the horizontal record. All components get its factor, so that their
+            # ratios stay.
             peak = np.abs(records["record"].a_mps2).max()
             return float((row.scale_value or 1.0) * G_MPS2 / peak)
         case Scaling.TARGET:

@@ -107,6 +107,7 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
     weights = {array.id: array.weight_n for array in data.arrays}
     for index, links in enumerate(data.links):
         # Steps grow with the square root of the stiffness, per mass of a block.
+        # c = 2 zeta sqrt(k m), of a stiffness of 1.
         damping_per_s = 2.0 * links.damping_ratio
         soft = BlockRow(mus=links.mus, stiffness_per_s2=1.0, damping_per_s=damping_per_s)
         per_s2 = (MOST_STEPS / minimum_steps(soft, seconds)) ** 2
@@ -116,6 +117,7 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
                 Place("links", index, "stiffness_n_per_m"),
                 f"link stiffness is {_stiffness_text(links.stiffness_n_per_m)}, too stiff to "
                 f"integrate in {MOST_STEPS:.0e} steps",
+                # Less than the limit, which two digits might round up.
                 f"enter {_stiffness_text(0.9 * largest)} or less (a stiffer row moves as one rigid "
                 "block with the mean coefficient)",
             )

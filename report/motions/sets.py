@@ -217,6 +217,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
             f"{group[-1].name} is positive downward: enter it with factor -1, as motion convert"
             " --factor -1 writes it"
         )
+    # By 90 or 270 degrees: each component may be positive either way.
     elif level[0].family != level[1].family or (level[1].degrees - level[0].degrees) % 180 != 90:
         yield "the horizontal components are not perpendicular by their names"
     steps, lengths = [channel.dt_s for channel in group], [channel.npts for channel in group]
@@ -237,6 +238,7 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
     for record in motion_file.channels:
         channel_name = "" if record.name == motion_file.name else record.name
         stem, of_name = PurePosixPath(file).stem, None
+        # Of several channels the name of the file can tell none.
         if is_alone:
             stem, of_name = _by_name(stem)
         of_heading = _by_heading(channel_name)

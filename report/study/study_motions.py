@@ -136,6 +136,7 @@ def _unlike(
                 f"has {len(first_fields)}",
                 "a study compares motions with the same components",
             )
+    # Each building has motions of its own, all in memory at once.
     samples *= max(1, len(study_input.buildings))
     if samples > MOST_SAMPLES:
         place = Place("motions") if study_input.motions else _FOLDER
@@ -173,6 +174,7 @@ def _motion(
         ax_mps2=read_only(a["record"]),
         ay_mps2=read_only(a.get("transverse", np.empty(0))),
         az_mps2=read_only(a.get("vertical", np.empty(0))),
+        # To an intensity of 1: a run takes its intensity as the factor.
         scale=1.0 / unit,
         signs=SIGNS[row.polarity],
     )

@@ -187,9 +187,11 @@ def _headings(
         texts = phrases.words(heading, separator)
         if len(texts) == width:
             return phrases.settled([parse(text) for text in texts]), start - 1, ""
+        # Two columns are times and values, whatever stands above them (`text._has_times`).
         if width > 2:
             misfit = f"found {len(texts)} headings over {width} columns; enter one for each"
             return [], start - 1, misfit
+    # The nearest to the numbers first.
     for index, line in reversed(remarks):
         if parsed := phrases.remark(line, separator, width):
             return phrases.settled(parsed), index, ""

@@ -144,6 +144,7 @@ def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
     if len(counts) != 2 or min(counts.values()) > 1 or len(digits) < COMPARED // 3:
         return
     usual, odd = (step for step, _ in counts.most_common())
+    # More digits than usual are no loss.
     if odd < usual:
         index, row = rows[digits.index(odd)]
         raise InputError(
@@ -293,6 +294,7 @@ def _values(
         fields = chain.from_iterable(split(row.translate(_FORTRAN)) for row in rows)
         values = np.fromiter(map(float, fields), np.float64)
     except ValueError:
+        # NaN fails the comparison below, so that the problems are told.
         values = np.array([math.nan])
     is_plain = all(row.isascii() and "_" not in row for row in rows)  # or Python takes 1_0 as 10
     if not (is_plain and (np.abs(values) < BEYOND).all()):

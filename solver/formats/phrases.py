@@ -274,6 +274,7 @@ def steps_in(source: Source, index: int, line: str) -> list[Stated]:
     steps: list[Stated] = []
     rate = _RATE.search(line)
     unit = (rate[5] or "").lower() if rate else ""
+    # A unit or a sign makes a rate of it; without either the number may belong to the prose.
     if rate and (rate[1] or rate[2] or rate[4] or unit in SECONDS):
         stated = _stated(source, index, rate[3])
         if unit in SECONDS:

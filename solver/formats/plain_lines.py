@@ -93,6 +93,7 @@ def _without_units_row(lines: list[str]) -> list[str]:
     for name, unit in pairs:
         plain = unit.strip(" []()")
         headings.append(f"{name.strip()} [{plain}]" if plain else name)
+    # A blank takes the place of the row, so that messages count the lines of the file.
     return [*lines[: rows[0]], (mark or " ").join(headings), *lines[rows[0] + 1 : rows[1]], "",
             *lines[rows[1] + 1 :]]  # fmt: skip
 

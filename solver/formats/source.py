@@ -98,6 +98,7 @@ class Source:
                 f"{self.at(index)}: the file is in {stated} and a response is given, which is that"
                 " of raw counts; use the file alone"
             )
+        # gal and cm/s2 are one unit by two names.
         if self.units and not math.isclose(unit_size(self.units), size):
             problem = f"{self.at(index)}: the file is in {stated} but units are {self.units}"
             raise InputError(Problem(problem, "enter the file's units, or none", about="units"))
@@ -171,6 +172,7 @@ class Source:
             )
         if math.isnan(self.dt_s):
             return value
+        # A caller may give 1/128 s as 0.007813 s, which is then taken.
         if abs(value - self.dt_s) > stated.rounding + 1e-4 * value:
             problem = (
                 f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but the one"

@@ -365,6 +365,7 @@ def _check_is_time(layout: Layout, table: Floats) -> None:
     source, times = layout.source, table[:, 0]
     if layout.headings or len(times) <= _FEW:
         return
+    # Not the first fall: times that stand twice or out of order are told as times.
     falling = int((np.diff(times) <= 0.0).sum())
     if 4 * falling > len(times) and 0 not in rising(table):
         raise InputError(

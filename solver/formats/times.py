@@ -141,6 +141,7 @@ def _resampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[
     usual, length = float(f"{np.median(steps):.9g}"), float(t_s[-1] - t_s[0])
     best = None
     power = math.floor(math.log10(usual))
+    # Round steps, the largest first: 0.005 s rather than 0.0047 s.
     for k, m in product(range(power, power - 4, -1), (5, 2, 1)):
         step = float(f"{m}e{k}")
         if not usual / _FINEST <= step <= usual:

@@ -56,6 +56,7 @@ def cross_slope_effect(ax, ay, az, dt, sn, cs, mu, g, scale, matters, share, fir
     effect = travel = apart = w = 0.0
     push = side = 0.0
     sixth = dt * dt * SIXTH
+    # The slip begins within the interval that ends at `first`.
     begin = max(first - 1, 0)
     for i in range(begin, ax.size):
         along, weight = scale * ax[i], g + scale * az[i]
@@ -70,6 +71,7 @@ def cross_slope_effect(ax, ay, az, dt, sn, cs, mu, g, scale, matters, share, fir
         way = dt * w + sixth * (2.0 * rise_before + rise)
         effect += min(dt * apart + sixth * (2.0 * before_side + side), 2.0 * way)
         travel += way
+        # The second term: a block that stops within the interval may slip again before its end.
         w = max(w + 0.5 * dt * (before + push), 0.5 * dt * rise)
         apart = min(apart + 0.5 * dt * (before_side + side), 2.0 * w)
         if effect > max(matters, HOPELESS * share * travel):

@@ -33,6 +33,8 @@ def live(first, friction, run, level, weight, side, responses, recenter, out):
         x = y = largest = 0.0
         for event in range(first[life], first[life + 1]):
             low = level[event]
+            # Of an event without a response nothing is known: the life counts as beyond every
+            # limit.
             if low < 0:
                 largest = math.inf
                 break

@@ -95,6 +95,8 @@ def minimum_normal(ax, az, x, z, dt, sn, cs, g, scale):
     """
     # -N / m in the form of `_net_driving`: -(g + az) cos(theta) - ax sin(theta).
     c = (-cs * g, -cs * scale, sn * scale)
+    # Without a vertical this bound is the largest itself, of one sample. With one, the extremes of
+    # ax and az may be of two.
     most = _maximum_net_driving(c, x, z, x.shape[1] - 1)
     if az is not None:
         most = -np.inf
@@ -123,6 +125,7 @@ def _resting_band(down, up):
         elif c[2] < 0.0:
             high = min(high, c[0] / c[2] - MARGIN * abs(c[0] / c[2]))
         elif c[0] > 0.0:
+            # No ax holds the block: the band is empty.
             low = np.inf
     return low, high
 
@@ -162,6 +165,7 @@ def _next_slip(down, up, band, ax, az, x, z, i):
                 continue
         end = min(((i >> SHIFT) + 1) << SHIFT, n)
         while i < end:
+            # Without a vertical the band tells; a push is computed only beyond it.
             beyond = az is not None or ax[np.uintp(i)] < band[0] or ax[np.uintp(i)] > band[1]
             if beyond and (
                 _net_driving(down, ax, az, i) > 0.0 or _net_driving(up, ax, az, i) > 0.0
@@ -195,6 +199,7 @@ def _onset(q_0, q_1, tau, dt):
         return dt
     # q_0 + (q_1 - q_0) tau / dt = 0
     if q_0 <= 0.0 and q_1 > 0.0:
+        # A block that stopped after that zero is pushed at once.
         return max(dt * (q_0 / (q_0 - q_1)), tau)
     r = (q_1 - q_0) / dt
     # Positive at the begin: it pushes now, or has passed its zero before tau.
@@ -210,6 +215,7 @@ def _move(w, q_0, q_1, tau, dt, rate):
         q = max(q, 0.0)  # at an onset the push is not negative, except for rounding error
     # 0 if the speed is largest at an end.
     peak = w - 0.5 * q * q / r if q > 0.0 > q + r * h else 0.0
+    # From rest, a push that does not fall lets nothing stop.
     step = _first_stop(w, q, r, h) if w > 0.0 or r < 0.0 else -1.0
     if step < 0.0:
         return dt, h * (w + h * (0.5 * q + h * (r * SIXTH))), w + h * (q + 0.5 * r * h), peak
@@ -345,6 +351,7 @@ def slide_exact(ax, az, x, z, dt, sn, cs, mu, g, scale, events):
 def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
     """Fill `history`, shape (2, n), with s and s' at the samples, from all events of the run."""
     history[:] = 0.0
+    # Slips and stops alternate; the last slip may have no stop.
     for k in range(0, events.shape[0], 2):
         t, sigma, s = events[k, 0], events[k, 1], events[k, 2]
         ends = k + 1 < events.shape[0]
@@ -367,6 +374,7 @@ def fill_history(ax, az, dt, sn, cs, mu, g, scale, events, history):
             before = i * dt
             i += 1
         if ends:
+            # To the end: a later slip overwrites what follows its onset.
             history[0, i:] = events[k + 1, 2]
 
 

@@ -27,6 +27,7 @@ def _step(p, zeta):
         return h, slope, once, p - h - 2.0 * zeta * once
     h = once = twice = 0.0
     term, ahead, power = 0.0, 1.0, 1.0
+    # p is below 1: term 24 is below 1 / 24! = 2e-24 of the first.
     for k in range(24):
         h += term * power
         once += term * power * p / (k + 1)

@@ -236,6 +236,7 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
                 stretch = x + h * w + half * a
             s += stretch - x
             force, slips = _link(stretch, k, cap_j)
+            # A link at its cap slips: its stretch stays that of the cap.
             x = force / k if slips != 0 else stretch
             n_stops += slip != 0 and slips != slip
             slip = slips

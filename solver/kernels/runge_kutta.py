@@ -171,6 +171,7 @@ def slide_line(ax, az, dt, sn, cs, mu, g, scale, order, history):
             history[:, i] = y
         drive_0, cap_0 = drive, cap
         drive, cap = _drive_and_cap(ax, az, i + 1, sn, cs, mu, g, scale)
+        # Drive and capacity are linear: what rests at both samples rests between them.
         if y[1] == 0.0 and abs(drive_0) <= cap_0 and abs(drive) <= cap:
             continue
         r_drive, r_cap = (drive - drive_0) / dt, (cap - cap_0) / dt
@@ -202,6 +203,7 @@ def slide_line(ax, az, dt, sn, cs, mu, g, scale, order, history):
             # w is zero where the slip begins: its end is the next zero.
             part = _stop(sign, LATER if begins else 0.0, high, h, y[1], a, new[1], a_end)
             y[0], _ = _between(part, h, y[0], y[1], new[0], new[1])
+            # Time must advance even by a part that is rounding.
             y[1], t = 0.0, max(t + part * h, np.nextafter(t, dt))
             n_stops += 1
             if abs(y[0]) > max(s_max, -s_min):

@@ -139,6 +139,7 @@ def _friction(k, b, c, rc, law):
 def _advance(k, b, ga, gs, ra, rs, span, law):
     """Write coefficient k + 1 of v and w from those of e and q up to k; return |v|, of that one."""
     along = across = push = 0.0
+    # Without a law q is linear in time, as G is: two coefficients.
     for j in range(min(k, 1) + 1 if law is None else k + 1):
         each, m = b[Q, np.uintp(j)], np.uintp(k - j)
         along -= each * b[EA, m]
@@ -161,6 +162,8 @@ def _advance(k, b, ga, gs, ra, rs, span, law):
 @jit()
 def _part(order, before, last, tol):
     """Fraction of the span at which the last two terms of a series fall below tol."""
+    # The two terms are of degree order - 1 and order: at a fraction f they fall to f^(order - 1) or
+    # less.
     size = max(before, last)
     return 1.0 if size <= tol else math.exp(math.log(tol / size) / (order - 1))
 
@@ -173,6 +176,7 @@ def _begin(w, ga, gs, ra, rs, c, rc, span, law, b):
     b[VA, 0], b[VS, 0], b[W, 0], b[EA, 0], b[ES, 0] = w, 0.0, w, 1.0, 0.0
     _friction(0, b, c, rc, law)
     _advance(0, b, ga, gs, ra, rs, span, law)
+    # |e| = 1: at first it turns, without a component along itself.
     b[EA, 1], b[ES, 1] = 0.0, inverse * b[VS, 1]
     return inverse, inverse * b[W, 1]
 
@@ -292,6 +296,7 @@ def _creeping(w, vs, g, ra, rs, c, rc, span, tol, maximum_degree, swell, law, b)
             change = max(change, abs(es - b[ES, k]))
             b[ES, k] = es
             if k == 0:
+                # A sweep that has not converged may give |es| above 1.
                 b[EA, 0] = math.sqrt(max(1.0 - es * es, 0.25))
             else:
                 total = es * b[ES, 0]
@@ -831,6 +836,7 @@ def _onset(gx, gy, c, hx, hy, d):
 @jit()
 def _rest(gx, gy, c, hx, hy, d, left, hold, slow, dead, error, off):
     """Rest until |G| exceeds friction beyond rounding; onset / `left` (2: never), error, off."""
+    # A push within `dead` may be rounding error: it makes no slip, but its effect counts in `off`.
     onset = _onset(gx, gy, hold * c + dead, hx, hy, hold * d + dead)
     pull, h = math.sqrt(gx * gx + gy * gy), left * min(onset, 1.0)
     error += off * h
@@ -910,6 +916,8 @@ def slide_plane(
     # np.int64, because for literals numba would compile a second version of what takes them.
     i, n_events = np.int64(0), np.int64(0)
     n_stops = n_steps = 0
+    # Forces are compared by their squares: where these overflow nothing is run, and the end says
+    # so.
     last = ax.size - 1 if terms * terms < np.inf else -1
     _fill(history, i, i + 1, 0.0, 0.0, 0.0, 0.0)
     while i < last:
@@ -923,6 +931,7 @@ def slide_plane(
         g0x, g0y, c0 = _sample(ax, ay, az, i, p, q)
         hx, hy, d = _sample(ax, ay, az, i + 1, p, q)
         rx, ry, rc = (hx - g0x) / dt, (hy - g0y) / dt, (d - c0) / dt
+        # Without any friction in the interval no block stops.
         rubs = c0 > 0.0 or d > 0.0
         tau = 0.0
         # The loop terminates: each step advances time by `least` or more, and a pass without a
@@ -951,12 +960,15 @@ def slide_plane(
             # An error in v acts until the slip ends, assumed to take about as long again.
             late = t - since
             tol = tolerance * max(fastest * far / (far + late * fastest), SMALL / (late + left))
+            # Below the rounding error of the drive a shorter step gains nothing.
             tol = max(tol, EPS * terms * left)
             order, part, span, astray, ux, uy = _series(
                 w, vx, vy, gx, gy, rx, ry, c, rc, left, tol, maximum_degree, slow, law, b
             )
             along, across, way, aside, va_rate, vs_rate, moved = _scale(b, order, part)
             stops = rubs and moved >= w and _changes(b, W, order, ONE) > 0
+            # Near a stop a series reaches only as far as w / |v'|, and steps would shrink with w
+            # without end: a stop that is near enough is taken in closed form.
             if part < 1.0 and not stops and w > 0.0:
                 slack = CLOSE * tolerance * far
                 rest, back, sides, miss = _close(
@@ -1020,6 +1032,8 @@ def slide_plane(
             _see(sx, sy, t + h, cs, top)
             # If h is below `least`, `off` covers the gain in velocity in the time skipped.
             tau = dt if part == 1.0 and span == left else tau + max(h, least)
+            # A falling speed below the tolerance is a stop as well; `off` carries what is left of
+            # it.
             if stops or (after <= tol and after < w and rubs):
                 off += after
                 vx, vy, after, moving = 0.0, 0.0, 0.0, False

@@ -109,6 +109,7 @@ def spectrum_ratios(
     ratios: list[SpectrumRatio] = []
     for motion, spectra in zip(motions, spectra_of(motions), strict=True):
         for name, spectrum in zip(motion.components, spectra, strict=True):
+            # A factor may be negative, which reverses the motion; its spectrum is the same.
             ratio = np.abs(motion.scaled(spectrum / UNITS["g"])) / goals[name]
             ratios.append(SpectrumRatio(motion=motion.id, component=name, ratio=ratio))
     return tuple(ratios)
@@ -160,6 +161,7 @@ def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[Limit]:
 
 def _sets(points: NDArray[np.bool_]) -> Sequence[NDArray[np.bool_]]:
     """Return the points of each set with 1/6 octave between neighbors among some points."""
+    # Counted from the knee, the first point of the band of AC156.
     return [points & (k == (_PLACE - N_SLIDING + 1) % N_SETS) for k in range(N_SETS)]
 
 

@@ -125,6 +125,7 @@ def _peaks(response: Floats, p: float, inputs: Floats, last_steps: int, largest:
     # The longest step, to a power of two, that is 1/16 of a period at most.
     stride = 2 ** int(math.log2(min(max(2.0 * math.pi / PEAK_FINENESS / p, 1.0), _BLOCK)))
     y = np.tensordot(response[stride::stride, 0], inputs, 1)
+    # The last block is filled up with zeros: what moves after the end of the record does not count.
     y[last_steps // stride :, :, -1] = 0.0
     highest = np.maximum(np.abs(y, out=y).max(0), np.abs(inputs[0]))
     peaks: Floats = highest.max(1)
@@ -132,6 +133,7 @@ def _peaks(response: Floats, p: float, inputs: Floats, last_steps: int, largest:
     # cubics through its steps: only blocks as near to the peak as that are looked at closely.
     bend = 0.25 * (stride * p) ** 2 * (peaks + largest)
     near = highest >= (peaks - bend)[:, None]
+    # The strides may miss the end of the record within the last block.
     near[:, -1] = True
     record, block = np.nonzero(near)
     y, z = (response @ inputs[:, record, block]).transpose(1, 0, 2)

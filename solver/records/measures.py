@@ -150,6 +150,7 @@ def _displacement_peaks(a: Floats, dt: float, v: Floats, d: Floats) -> Floats:
         q = -(start + np.copysign(np.sqrt(start * start - 2.0 * r * speed), start))
         peaks = []
         for x in (q / r, 2.0 * speed / q):
+            # Where r or q is zero a root is infinite or NaN, which the next line leaves out.
             moved = place + x * (speed + x * (0.5 * start + x * r / 6.0))
             peaks.append(moved[(x > 0.0) & (x < dt)])
     return np.concatenate(peaks)

@@ -151,12 +151,14 @@ def process_together(records: Sequence[Record], processing: Processing) -> tuple
 
 def _steps(seconds: float, dt_s: float) -> int:
     """Number of whole steps that cover a time, with an allowance for rounding of the quotient."""
+    # 0.07 s / 0.01 s is 7.000000000000001.
     return math.ceil(seconds / dt_s - 1e-6)
 
 
 def _bounds(record: Record, processing: Processing) -> tuple[int, int]:
     """Indices of the first sample kept and of the first sample after the part kept."""
     last = len(record.a_mps2) - 1
+    # `to_s` may be infinite, which has no floor.
     end = min(processing.to_s / record.dt_s + 1e-6, float(last))
     return _steps(processing.from_s, record.dt_s), math.floor(end) + 1
 
@@ -329,6 +331,7 @@ def _size_problems(record: Record, processing: Processing, length_s: float) -> l
     ratio = new_s / record.dt_s
     filtered_s = length_s + 2.0 * _pad_s(processing)
     drawn = _finer(ratio) if ratio > 1.0 else 1
+    # What is longest on the way: the filtered record at its finest, or the result.
     count = max(drawn * filtered_s / record.dt_s, (filtered_s + processing.pad_s) / new_s)
     if count > MAX_SAMPLES:
         return [f"gives {count:.2g} samples; use a larger step, higher corners or fewer zeros"]

@@ -159,6 +159,8 @@ def _pair(
     return maximum, 2.0 / 3.0 * maximum if design is None else design
 
 
+# Lower ends of the rows of Tables 11.6-1 and 11.6-2 from the second on, and S_1 of 11.6. The tables
+# end at D: E and F follow from S_1 alone.
 LIMITS_SHORT_G = (0.167, 0.33, 0.50)
 LIMITS_1S_G = (0.067, 0.133, 0.20)
 NEAR_FAULT_S_1_G = 0.75

@@ -156,6 +156,7 @@ def minimum_motions(rules: RuleSet, basis: Basis) -> float:
         Basis.MEAN_FACTORED: rules["analysis_mean_motions"],
         Basis.LARGEST_FACTORED: rules["analysis_min_motions"],
         Basis.MEAN: float(MEAN_WITHOUT_FACTOR_MOTIONS),
+        # No number makes it enough: what has no value keeps none.
         Basis.TOO_FEW: math.inf,
     }[basis]
 

@@ -161,6 +161,7 @@ def _warn_if_in_g(run: Scene) -> None:
         warnings.warn(
             f"the accelerations reach {peak:.3g} m/s2, and {yield_ratio * run.g_mps2:.3g} m/s2"
             " slips: use units='g' if they are in g, or units='m/s2'",
+            # At the line that called `slide`, `scene` or `motion`, behind `scene_of`.
             stacklevel=4,
         )
 

@@ -180,6 +180,7 @@ def _rounding_m(scene: Scene, outcome: TwoAxesOutcome) -> float:
     )
     # Of positions: |x| + |y| and what a step adds, by one rounding a step.
     steps = 2.0 * outcome.prd_m + outcome.peak_mps * scene.dt_s
+    # An acceleration d moves a block by d t^2 / 2 at most: friction only reduces it.
     return kernel.ROUNDING * terms * 0.5 * seconds**2 + kernel.EPS * outcome.n_steps * steps
 
 

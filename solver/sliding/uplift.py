@@ -53,6 +53,7 @@ def _below(normal: Floats) -> Floats:
     # Similar triangles: |below| / (|below| + |above|) where the signs differ, else 0 or 1.
     deep = np.maximum(-first, 0.0) + np.maximum(-last, 0.0)
     total = np.abs(first) + np.abs(last)
+    # Zero at both ends: no part of the interval is below.
     return deep / np.where(total > 0.0, total, 1.0)
 
 

@@ -148,6 +148,8 @@ def of_existing_roof(data: ProjectInput) -> Iterator[Check]:
     year = f", {site.building_code_year}" if site.building_code else ""
     lacking: dict[str, str] = {}
     for field, load, added, roof_value, quantity, subject, most_percent, section in (
+        # 503.3 is of an element of the roof, which the heaviest array loads most; 503.4 is of the
+        # building, which carries all of them.
         ("roof_load_pa", "design load of the roof", heaviest.weight_pa, site.roof_load_pa,
          Quantity.PRESSURE, heaviest.id, 5.0, "503.3"),
         ("seismic_weight_n", "seismic weight of the building", added_n, site.seismic_weight_n,

@@ -70,6 +70,7 @@ def of_neighbors(done: Assessment) -> Iterator[Check]:
                 sense=Sense.STATED if isinstance(limit, str) else Sense.AT_LEAST,
                 clause="roof plan",
                 is_satisfied=False,
+                # Where a row and the plan differ it is not known here which of them is right.
                 consequence=Consequence.NG if near.is_short else Consequence.CONDITION,
                 remedy=f"{capitalized(words)} ({cell}).",
             )

@@ -108,6 +108,7 @@ def run_checks(item: ArrayAssessment, us_first: bool) -> Iterator[Check]:
             outcomes.setdefault(key, []).append(run)
             motions.setdefault(key, []).append(motion.motion.id)
     failed = {key: runs for key, runs in outcomes.items() if key[0] is not Status.OK}
+    # Once a run fails, those that come to rest need no check of their own.
     for (status, remedy), runs in (failed or outcomes).items():
         outcome = _outcome(status, runs, us_first)
         yield Check(

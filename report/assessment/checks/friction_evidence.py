@@ -169,6 +169,7 @@ def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
         limit = capacity(MOST_BEYOND * tested_mps, Quantity.VELOCITY)
         note = f"{'; '.join(notes)}; at most {MOST_BEYOND:g} times as fast"
         return {"found": speed, "limit": limit, "sense": Sense.AT_MOST, "note": note}
+    # What is required here are tests, no number.
     if check.is_far or incomplete:
         return {
             "found": "; ".join((slides, *notes)),

@@ -117,6 +117,8 @@ def _ways_of_drift(missed: Limit, shaking: Shaking) -> str:
 
 def drift_limits(prepared: Sequence[PreparedMotion]) -> tuple[Limit, ...]:
     """Return the limits on where the components of the motions end, and how fast they are then."""
+    # A displacement that a source states to be permanent is no drift; no source makes a record end
+    # at a velocity.
     free = [motion for motion in prepared if not motion.drift_basis]
 
     def largest(motions: Sequence[PreparedMotion], end: str) -> tuple[float, str]:

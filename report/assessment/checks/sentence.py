@@ -105,6 +105,7 @@ def _as_one(group: Sequence[Check]) -> Check:
     found_value, limit, note = worst_one.found, worst_one.limit, worst_one.note
     if isinstance(limit, Amount):
         if any((check.found, check.limit) != (found_value, limit) for check in group):
+            # Where the numbers differ those of the worst are printed, and it is named.
             limit = replace(limit, mark=f"{limit.mark} ({worst_one.subject})")
     elif all(isinstance(check.found, Amount) for check in group):
         found_value = _apart(group)

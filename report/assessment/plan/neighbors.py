@@ -221,6 +221,8 @@ def _pairs(
             far=far,
             gap_m=gap_m(near, far),
             reach_m=reach_m,
+            # A bare side of the roof is no object: no row can name it. Of two arrays either may
+            # have the row.
             given=() if is_bare else rows.get(frozenset((array, neighbor)), ()),
             to_add=to_add["objects" if is_bare else "clearances"],
         )

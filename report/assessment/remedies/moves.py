@@ -123,9 +123,11 @@ def _moved(data: ProjectInput, *, name: str, by: Point) -> ProjectInput:
         opposite = row.object if row.array == name else row.array
         if name not in (row.array, row.object) or opposite not in shapes:
             return row
+        # By as much as the gap of the plan changes: what is entered may differ from the plan.
         change_m = gap_m(after, shapes[opposite]) - gap_m(before, shapes[opposite])
         return row.model_copy(update={"provided_m": row.provided_m + change_m})
 
+    # A polygon is moved by its outline below.
     sides = {side: getattr(after, side) for side in SIDES} if isinstance(after, Rectangle) else {}
     return data.changed(
         arrays=tuple(

@@ -142,6 +142,7 @@ def _on_the_roof(inputs: Inputs, where: Where) -> Iterator[Finding]:
         roof_place = outlines[ROOF].place if ROOF in outlines else Place("roof", 0, "x_from_m")
         for index, array in enumerate(inputs["arrays"]):
             outline = outlines.get(array.get("id", ""))
+            # Of two rectangles each side is a cell of its own, and is told there.
             if isinstance(roof, Rectangle) and outline is None:
                 yield from _beyond(roof, index, array, inputs, where)
                 continue

@@ -153,6 +153,7 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, stated: str = "")
     elif entry.zero and text.casefold() == entry.zero:
         value = 0.0
     elif math.isfinite(inches):
+        # Over the unit of the column, by which all numbers are multiplied below.
         value = inches * INCH_M / si
     else:
         value = number(cell, remedy, unit or stated)

@@ -137,6 +137,8 @@ def _fill(title: str, sheet: Any, cells: _Cells) -> bool:
         (range(int(element.get("min")), int(element.get("max")) + 1), element)
         for element in sheet.iterfind("{*}cols/{*}col")
     ]
+    # The text of a shared formula is in its first cell alone (ECMA-376-1, 18.3.1.40): to overwrite
+    # it would take it from the others.
     for place in cells.keys() & formulas.keys():
         if _is_needed_elsewhere(place, formulas, cells):
             address = f"{title}!{get_column_letter(place[1])}{place[0]}"

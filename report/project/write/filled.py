@@ -131,6 +131,7 @@ class WorkbookChange:
                 for row in table.rows
                 if not all(self.cell(key, row, name).is_blank for name in table.columns)
             ]
+            # Below the last one: blank rows between others may be meant to be there.
             self.next_rows[key] = max(filled_rows, default=top) + 1
         row = self.next_rows[key]
         self.next_rows[key] += 1

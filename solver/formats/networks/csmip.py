@@ -163,6 +163,7 @@ def _values_of_one(source: Source, part: range) -> Record:
         even = Block(first=first, stop=stop, count=count, promised=points[0])
         values = free_values(source, even) * scale
         length = printed(duration[1], points[0])
+        # The length is rounded once, over all steps.
         rounding = length.rounding / count
         step_s = round_step(length.value / count, rounding)
         stated = Stated(value=step_s, rounding=rounding, index=points[0])
