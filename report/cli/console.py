@@ -18,6 +18,7 @@ INTERNAL_ERROR = 1
 """The program failed (with the traceback), or checks of `verify` did."""
 DIFFERS = 1
 """A package differs from what its own input gives."""
+# As click exits for a wrong option.
 INPUT_ERROR = 2
 NOT_OK = 3
 """With --fail-on-ng: the verdict is not OK."""

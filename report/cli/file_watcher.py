@@ -21,6 +21,7 @@ from report.results.results_json import former_from
 from report.results.revision_comparison import changes
 
 POLL_S = 0.3
+# Then the report is made as it is, and says what is wrong with the workbook.
 MAX_POLLS = 10
 MAX_CHANGES = 12
 """Changes that are printed after a report."""

@@ -30,6 +30,7 @@ from report.web.app import made
 from solver.file_checks import read_file
 
 LOOPBACK = "127.0.0.1"
+# A browser leaves it out of an address.
 HTTP_PORT = 80
 MAX_TOKEN = 10_000
 

@@ -24,6 +24,7 @@ from solver.rules.provisions import Neighbor
 RADIUS_IN = 0.1
 NG_TALL_IN = TYPE_PT / 72.0 + 0.03
 _STEP_IN = 0.06  # by which a label slides
+# Less is rounding error: the gap lies along an axis of the paper.
 _ALIGNED_IN = 1e-6
 _MOST_NAMED = 4  # gaps of several kinds that one dimension names
 _OVERHANG_IN = 0.6  # of a dimension beyond the facing sides, where they are short

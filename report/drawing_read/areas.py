@@ -22,6 +22,7 @@ from report.project.model.shapes import Point
 
 MAX_BOUNDARIES = 500
 HATCHES = ("HATCH", "MPOLYGON")
+# Neighbors that share a border have an area of rounding error in common.
 _LEAST_SHARE = 1e-3
 _EDGES = {
     "LineEdge": ("LINE", ("start", "end")),

@@ -23,6 +23,7 @@ MAX_COORDINATE = 1e12
 # Of a spline, as in AutoCAD: the work for a point of it grows with the square of the degree.
 MAX_DEGREE = 10
 CURVES = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
+# Of the direction of extrusion, a unit vector; (0, 0, -1) is an entity that was mirrored.
 _FLAT = 1e-6
 _SPAN_PARTS = 4  # chords of a spline between two knots, at the least
 _SPLINE_FRAME = 16  # of a vertex that controls a curve and is not on it

@@ -57,6 +57,7 @@ _SIDE_STEPS, _PLACE_STEPS, _DEG_PER_M = 3.0, 2.0, 110.0
 _OFF_STEP = 0.13  # such as whole inches in feet with two decimals
 _MOST_PER_M2 = 16  # drawn twice, and with inner lines
 _COMPLEX = np.array((1.0, 1.0j))
+# By the ends of a box: left, bottom, right, top.
 _OUTWARD = np.array((-1.0, -1.0, 1.0, 1.0))
 
 _KINDS = (LayerKind.ARRAY, LayerKind.UNLIKE_ARRAY)

@@ -96,6 +96,7 @@ def whole_move(
         of_rows = chain.from_iterable(starmap(_fits, named))
         fits = (*of_roof, *of_rows)
         tried = [Move(), *(move for move in fits if not move.is_mirrored)]
+    # Each is compared with all rows; the likely ones, by the roof, come first.
     counts = {move: _agreeing(move, rows, drawn) for move in tried[:_MOST_TRIED]}
 
     def likely(move: Move) -> tuple[int, bool]:

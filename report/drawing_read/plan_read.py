@@ -50,6 +50,7 @@ LAYERS: Mapping[str, LayerKind] = {
     },
 }
 
+# As an ID of the workbook, which a name becomes.
 MAX_NAME = 40
 LEAST_AREA_M2 = 1e-3
 

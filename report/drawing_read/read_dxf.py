@@ -39,6 +39,8 @@ from solver.errors import InputError
 
 MAX_DEPTH = 8
 MAX_CURVE_POINTS = 500_000
+# The library's reader of texts takes a time that grows faster than their length: 200,000 stacked
+# fractions kept it busy without end.
 MAX_LETTERS = 500_000
 
 # Largest distance [m] of an arc from the chords that it is read as.

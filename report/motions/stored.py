@@ -23,6 +23,7 @@ MOST_STORED = 200 * MB
 MOST_FILES = 500
 
 _CHUNK = 1 << 20
+# Bit 0 of the flags of an entry (PKWARE APPNOTE.TXT, 4.4.4).
 _ENCRYPTED = 0x1
 
 File = tuple[str, IO[bytes]]

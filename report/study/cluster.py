@@ -16,6 +16,7 @@ from solver.studies.campaign import Campaign
 from solver.studies.runs import Runner
 
 TIMEOUT_S = 10.0
+# Of a part whose worker died: the scheduler gives it to another one.
 RETRIES = 2
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from solver.errors import InputError
 
+# As long as the hash of an HMAC by SHA-256 (RFC 2104, 3).
 KEY_BYTES = 32
 
 

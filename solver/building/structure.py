@@ -24,6 +24,7 @@ MOST_ALPHA0 = 1000.0
 
 MOST_STORIES = 100
 
+# pi / 2^60 is below the rounding error of any root.
 _HALVINGS = 60
 
 

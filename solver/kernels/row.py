@@ -47,6 +47,7 @@ ZERO = 4.0
 # Rounding errors of a step, in units of EPS times the magnitude of the terms summed.
 STEP = 8.0
 
+# Past every step, whose time goes from 0 to 1.
 NEVER = 2.0
 NEWTON = 200
 

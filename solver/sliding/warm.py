@@ -17,6 +17,7 @@ from solver.sliding import two_axes
 from solver.sliding.checked import history, scene, slide, solve
 
 _DT_S = 0.02
+# Strong enough to slip: a block that stays at rest would call few of the kernels.
 _SHAKING = 6.0 * np.sin(np.arange(40) * 0.9)
 _VARYING = Friction(mu_slow=0.3, mu_fast=0.4, mu_static=0.35, rate_s_per_m=20.0)
 

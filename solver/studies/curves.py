@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from solver.errors import InputError
 from solver.model import Floats
 
+# One standard deviation above the median of a lognormal.
 PERCENTILE = 84.0
 
 
@@ -79,6 +80,7 @@ LEAST_PRD_M = 0.005
 # Largest r fitted: near 1 the logarithm of a small difference would govern the fit.
 LARGEST_R = 0.9
 
+# Coefficients of the formula: a constant and four variables.
 TERMS = 5
 
 # Significant digits of the coefficients: the errors are those of the formula as it is printed.

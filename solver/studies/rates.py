@@ -19,6 +19,7 @@ from solver.model import Floats
 # Annual rate beyond which no intensity is run: they count as exceedances.
 LEAST_RATE = 1e-6
 
+# One standard deviation of a normal to either side.
 BAND = (0.16, 0.84)
 REPEATS = 1000
 """Realizations from which the band follows."""

@@ -201,6 +201,7 @@ def _rounding(track: Track, scenes: Floats) -> Floats:
     return np.asarray(4.0 * sys.float_info.epsilon * terms * lasts * lasts)
 
 
+# Well above the rounding error of a ratio of forces, about 1e-15.
 _NEAR = 1e-12
 
 

@@ -45,6 +45,7 @@ from report.text.names import joined, name_order, ranged
 from report.text.units import Quantity, no_less, pair
 from solver.friction_tests import MOST_MU
 
+# More than rounding error, and nothing that is printed.
 _NOISE = 1e-9
 _MOST_HUNDREDTHS = round(100.0 * MOST_MU)
 

@@ -23,9 +23,11 @@ from solver.records.acceptance import POINTS_HZ, spectrum_mps2
 from solver.records.record import Record
 from solver.records.spectrum import response_spectrum
 
+# 0.77 s is the corner of AC156, 1.3 Hz.
 PRINTED_S = (0.03, 0.1, 0.2, 0.5, 0.77, 1.0, 2.0, 5.0, 10.0)
 # The points of the limits on spectra, so that a page says one thing of them; and printed periods.
 PERIODS_S: Floats = np.unique(np.concatenate([1.0 / POINTS_HZ, PRINTED_S[1:]]))
+# Spectra at these are there already, from the limits on motions.
 _IS_POINT = np.isin(PERIODS_S, 1.0 / POINTS_HZ)
 
 

@@ -29,6 +29,7 @@ def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
     gathered = Gathered(inputs=inputs, addresses=dict(sheet.addresses), unfound=set(sheet.unfound))
     for place, value in typed.items():
         entry = SECTION[place.section].entry(place.field)
+        # Emptied, a cell may stand for what others give: `_compute` has that.
         read = entry.default
         try:
             if value is not None:

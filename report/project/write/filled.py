@@ -111,6 +111,7 @@ class WorkbookChange:
 
     def number(self, key: str, name: str, value_si: float) -> float:
         """Return a value in the unit of a column."""
+        # Without the rounding of the conversion: 12 in, not 11.999999999999998.
         return round(value_si / self.table(key).columns[name].si, DIGITS)
 
     def rows(self, key: str, name: str, value: str) -> list[int]:
@@ -197,6 +198,7 @@ def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChang
                 )
         change = WorkbookChange(open_book(path))
         yield change
+        # A command that changes nothing leaves the file, its time and the copy as they are.
         if change.files or change.book.data != change.before.data:
             copy = {f"{path.stem}{BEFORE}": change.before.data} if keeps_copy else {}
             write_all({**change.files, **copy, path.name: change.book.data}, path.parent)
@@ -263,6 +265,7 @@ def _dependents(book: OpenBook, cells: Set[CellPosition]) -> Set[CellPosition]:
             if position not in dependents and any(starmap(may_refer, areas[position]))
         }
         dependents |= added
+    # What is written itself has its value.
     return dependents - cells
 
 

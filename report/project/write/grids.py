@@ -167,6 +167,7 @@ def write_table(
         section=section,
         sheet=section.sheet,
         header=header,
+        # A table grows in Excel as rows are typed below it: few blank ones will do.
         size=max(BLANK_ROWS if is_first else FEWER_ROWS, len(rows) + SPARE_ROWS),
         headings={column.name: column.heading for column in columns},
         letters={c.name: get_column_letter(k) for k, c in enumerate(columns, start=FIRST)},

@@ -40,6 +40,7 @@ PLAIN = DifferentialStyle(fill=PatternFill("solid", start_color=WHITE, end_color
 HAIR = Side(style="thin", color="C9CDD1")
 BOX = Border(left=HAIR, right=HAIR, top=HAIR, bottom=HAIR)
 LINE = Border(bottom=HAIR)
+# For an end that a field does not have: Excel's rule `between` needs two.
 NUMBER_LIMIT = 1e8
 _INPUT_FONT = Font(name="Calibri", size=11, color="000000")
 _ANSWER_FONT = Font(name="Calibri", size=11, color=INK)

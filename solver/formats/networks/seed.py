@@ -32,6 +32,7 @@ from solver.records.record import Record, quoted, unit_size
 _NAMES = {"MSEED": "miniSEED", "SAC": "SAC"}
 _OTHER_SAC = {6: "displacement", 7: "velocity", 50: "volts"}
 _SEVEN_DIGITS = 5e-7  # of a number of 24 bits
+# Of a vertical sensor: what is farther off is a direction of its own, which is noted.
 _PLUMB_DEG = 5.0
 _INSTALL = (
     "is read by ObsPy, which is not installed; type the command of ./roofslip motion with a name"
