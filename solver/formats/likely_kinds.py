@@ -21,9 +21,11 @@ _TEXTS = (
     (re.compile(r"(?i)\s*<(?:!doctype html|html)"), "a web page", _AS_RECORD),
     (re.compile(r"(?i)\s*<\?xml|\s*<[a-z]+[ >]"), "XML, such as StationXML", _AS_RECORD),
     (re.compile(r"\{\\rtf"), "a text of a word processor", "save it as plain text"),
+    # A bracket with a unit in it, such as [g], may be a heading.
     (re.compile(r"""\s*(?:\{|\[\s*+(?:[\[{"'\d-]|$))"""), "JSON", COLUMNS),
     (re.compile(r"TIMESERIES \S+_"), "TSPAIR or SLIST of EarthScope", _CONVERT),
     (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
+    # SAC writes -12345 for each value of its header that is not known.
     (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
     (re.compile(r"(?i)\s*(?:timeSeries|set|pattern)\s+\S+\s+\S|\s*(?:import\s|function\s[^(]*\()"),
      "a program", _AS_READ),
@@ -32,6 +34,7 @@ _TEXTS = (
 LOOKED_AT = 15
 _BYTES = (
     (re.compile(rb"MS\x03"), "miniSEED 3", _CONVERT),
+    # A record begins with its number and the kind of its control header.
     (re.compile(rb"\d{6}[VAST] "), "SEED", _CONVERT),
     (re.compile(rb"PK\x03\x04"), "a zip or a workbook", "unpack it, or save its worksheet as CSV"),
     (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
