@@ -35,7 +35,9 @@ _SPELLED = {
     ("xy", 0): ("x",), ("xy", 90): ("y",), ("12", 0): ("h1", "1"), ("12", 90): ("h2", "2"),
     ("en", 0): ("e", "ew", "e-w", "we"), ("en", 90): ("n", "ns", "n-s"),
     ("en", 180): ("w",), ("en", 270): ("s",),
-    ("lt", 0): ("l", "long", "longitudinal"), ("lt", 90): ("t", "tran", "transverse"),
+    ("lt", 0): ("l", "long", "longitudinal", "r", "radial"),
+    ("lt", 90): ("t", "tran", "trans", "transverse"),
+    ("fn", 0): ("fn",), ("fn", 90): ("fp",),  # normal and parallel to the fault
 }  # fmt: skip
 # A word for the vertical anywhere in a name.
 VERTICAL = re.compile(rf"(?<![a-z])({'|'.join(_SPELLED[_UP, 0])})(?![a-z]|\.[a-z])", re.IGNORECASE)

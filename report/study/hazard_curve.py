@@ -38,16 +38,21 @@ _NAMES: Mapping[bool, re.Pattern[str]] = {
 _OF_ANY = "im iml imls imt intensity measure level levels ground motion acceleration g"
 _OF_INTENSITY = {
     False: f"{_OF_ANY} pga peak horizontal",
-    True: f"{_OF_ANY} sa sa1 sa1p0 spectral response 1 1.0 1.00 s sec second 1s 5% damped",
+    True: (
+        f"{_OF_ANY} sa psa sa1 sa1.0 sa1p0 t=1s t=1.0s spectral response 1 1.0 1.00 s sec second 1s"
+        " 5% damped"
+    ),
 }
 _OF_RATE = (
     "annual mean rate rates frequency of exceedance exceedence exceeding lambda λ per yr"
-    " year 1/yr 1/year 1/a yr^-1 year^-1 yr-1"
+    " year 1/yr 1/year 1/a yr^-1 year^-1 yr-1 afoe aef mafe maf"
 )
 _WORD = re.compile(r"[^\s_\[\](),;:]+")
 # In a line of text above them.
 _OF_OTHERS = re.compile(
-    r"\bPG[VD]\b|\bprobabilit|\breturn period|\bSa ?\( ?(?!1(?:\.0+)? ?s?\))", re.IGNORECASE
+    r"\bPG[VD]\b|\bprobabilit|\breturn period|\bpoe\b|\d ?(?:yrs?|years)\b"
+    r"|\bSa ?\( ?(?!1(?:\.0+)? ?s?\))",
+    re.IGNORECASE,
 )
 _MEASURE = {False: "PGA [g]", True: "Sa(1 s) [g]"}
 _RATE = "annual rate [1/year] (1 / T of a return period T, -ln(1 - p) / n of p in n years)"

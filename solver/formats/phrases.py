@@ -72,6 +72,8 @@ _IN_BRACKETS = re.compile(r"[\[(]([^\])]{1,16})[\])]")
 _UNITS_OF = re.compile(
     r"\bunits?\b[\s:=]*+(?:(?:of|in|are|is)\b(?!/)[\s:=]*+)*+([^\s,;()\[\]]+)", re.IGNORECASE
 )
+# Between marks, as in `Acceleration, cm/s2`; behind a number it is of that.
+_BARE = re.compile(r"(?:^[#\s]*|[,;:=]\s*+|\s-\s+)([^\s,;:=]+)(?=\s*(?:[,;]|$))")
 _STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;()\[\]]+)", re.IGNORECASE)
 
@@ -259,6 +261,7 @@ def units_in(line: str) -> list[str]:
     """Units of acceleration stated in a line of text."""
     places = [*_IN_BRACKETS.findall(line), *_UNITS_OF.findall(line), *_IN_PROSE.findall(line)]
     named = [parse(word) for word in re.split(r"[\s,;]+", line)]
+    places += [word for word in _BARE.findall(line) if "/" in word or word.lower() == "gal"]
     places += [heading.unit for heading in named if heading.kind is Kind.ACCELERATION]
     plain = [place.rstrip(".").removesuffix("'s").removesuffix("'S") for place in places]
     return [place for place in plain if not math.isnan(unit_size(place))]

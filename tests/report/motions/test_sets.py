@@ -51,6 +51,9 @@ def taken(folder):
         ("ABCN45E ABCN45W ABC-UP", "ABC"),
         ("ITACA-NS ITACA-WE ITACA-UP", "ITACA"),
         ("x y z", "quake"),
+        ("RSN6_FN RSN6_FP RSN6_UP", "RSN6"),
+        ("EQ1_R EQ1_T EQ1_V", "EQ1"),
+        ("EQ1_Long EQ1_Trans EQ1_Vert", "EQ1"),
     ],
 )
 def test_sets_of_three_are_told_by_the_ends_of_names(tmp_path, names, motion):

@@ -349,6 +349,8 @@ def test_files_of_two_columns_and_of_the_tool_are_read():
         ("Sa(1.0 s) [g],annual rate", True),
         ("Los Angeles\nSA1P0,rate\ng,1/year", True),
         ("iml,lambda", True),
+        ("PGA [g],MAFE", False),
+        ("PSA(T=1.0s) [g],AFOE", True),
     ],
 )
 def test_a_heading_of_the_measure_and_the_rate_is_read(heading, is_spectral):
@@ -372,6 +374,8 @@ def test_a_heading_of_the_measure_and_the_rate_is_read(heading, is_spectral):
         ("# PGV\n", ["# PGV"], False),
         ("# Sa(1 s)\n", ["# Sa(1 s)"], False),
         ("# Sa(0.5 s)\n", ["# Sa(0.5 s)"], True),
+        ("# acceleration, cm/s2\n", ["# acceleration, cm/s2"], False),
+        ("# PoE, 50 yr\n", ["# PoE, 50 yr"], False),
         ("Probabilities in 50 years\n", ["Probabilities in 50 years"], False),
     ], 3),
 )  # fmt: skip
