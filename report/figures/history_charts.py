@@ -91,6 +91,7 @@ class _Grid:
         for history in filter(None, self.followed):
             lines += [history.u_m, history.across_m]
         reached = np.concatenate(lines) / unit.si
+        # Where nothing slips there would be no range.
         self.ticks = _levels(float(reached.min()), float(reached.max()) or 1.0)
         self.low, self.high = self.ticks[0], self.ticks[-1]
         self.seconds = max(panel.motion.seconds for panel in panels)

@@ -167,6 +167,7 @@ def _time_of(a: Floats, dt: float, cumulative: Floats, target: float) -> float:
     """Time at which the integral of a^2 reaches the value wanted."""
     # Within an interval the integral is (c^3 - a^3) / (3 r), where c is the acceleration at the
     # time x and c - a = r x. Factoring out c - a gives x without cancellation.
+    # A record of zeros reaches every share at its start.
     i = max(int(np.searchsorted(cumulative, target)) - 1, 0)
     start, r = float(a[i]), float(a[i + 1] - a[i]) / dt
     missing = 3.0 * (target - float(cumulative[i]))

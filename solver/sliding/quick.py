@@ -21,6 +21,7 @@ from solver.sliding import one_axis
 from solver.sliding.arguments import is_in_range
 from solver.sliding.method import Outcome
 
+# No other type, not one derived: a boolean is an int, and is refused by the checks.
 _NUMBERS = {float, np.float64, int}
 _ROOM = 64  # records that are kept: a few suites
 
@@ -78,6 +79,7 @@ def _prepared(record: Record) -> _Prepared | None:
     if not peak < math.inf or not np.isfinite(samples).all():
         return None
     prepared = _Prepared(record, samples, x, peak, (a.size - 1) * dt)
+    # A view may change with the array that it is of.
     if not a.flags.writeable and a.base is None:
         if len(_kept) >= _ROOM:
             _kept.clear()

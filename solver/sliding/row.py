@@ -47,6 +47,7 @@ class BlockRow:
     @property
     def mean_mu(self) -> float:
         """Friction coefficient of the row as one rigid array: the weighted mean of the blocks."""
+        # A weighted mean of equal ones may differ from them in the last bit.
         if len(set(self.mus)) == 1:
             return self.mus[0]
         return math.fsum(mu * share for mu, share in zip(self.mus, self.weights, strict=True))
@@ -134,6 +135,7 @@ def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
         down_m=_tuple(down),
         up_m=_tuple(np.abs(up)),
         stretch_m=float(stretch),
+        # The kernel has it over the mean mass of a block.
         link_force=float(force) / scene.g_mps2,
         error_m=error,
         n_stops=n_stops,

@@ -48,6 +48,7 @@ def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tup
     bare = []
     for number, side in enumerate(sides(outline.points), start=1):
         (x0, y0), (x1, y1) = side
+        # Outlines run counterclockwise (`shapes.ring`): outward is to the right of a side.
         outward_deg = math.degrees(math.atan2(x0 - x1, y1 - y0))
         name = f"{compass(outward_deg, north_deg)} edge of the roof"
         if isinstance(outline, Polygon):
@@ -77,6 +78,7 @@ def _bare(side: tuple[Point, Point], strips: Sequence[Shape]) -> Iterator[tuple[
     from shapely.ops import substring
 
     line, covered_to = LineString(side), 0.0
+    # The end of the side bounds the last part as a strip does.
     for start, end in [*sorted(_covered(side, strips)), (line.length, line.length)]:
         if start - covered_to > EDGE_STRIP_M:
             first, last = substring(line, covered_to, start).coords

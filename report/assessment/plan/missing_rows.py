@@ -141,6 +141,7 @@ def _renewed(
 
 def _drawn_m(near: PlanNeighbor, data: ProjectInput) -> float:
     step_m = US_STEP_M if data.us_first else SI_STEP_M
+    # Shapes that overlap have a negative gap, and no distance.
     return round_down(max(near.gap_m, 0.0) / step_m, 0) * step_m
 
 

@@ -23,6 +23,7 @@ STRIDES = (5, 1)
 
 def above(value: float) -> int:
     """Return the first hundredth above a value."""
+    # 0.29 in hundredths is 28.999999999999996: the first above it is 30.
     return math.floor(100.0 * value + 1e-6) + 1
 
 

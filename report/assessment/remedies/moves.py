@@ -87,6 +87,7 @@ def _ways(
 def _length_m(near: Shape, far: Shape, way: Point, lack_m: float) -> float:
     """Return how far a shape is to move for so much more distance [m]; NaN if it comes nearer."""
     wanted_m, length_m = gap_m(near, far) + lack_m, lack_m
+    # Across a corner the distance grows by less than the move.
     for _ in range(_MOST_TRIES):
         still_m = wanted_m - gap_m(shifted(near, (way[0] * length_m, way[1] * length_m)), far)
         if still_m <= _NOISE_M:

@@ -141,6 +141,7 @@ def _enough(state: _State, remedies: Iterable[Remedy]) -> Remedies:
         remedy, state_now = min(trials, key=lambda way: len(way[1].failed))
         taken.append(remedy)
     done = state_now.done
+    # A later change may do what an earlier one was taken for.
     for tested in tuple(taken):
         fewer = [item for item in taken if item is not tested]
         data = reduce(lambda data, item: item.change(data), fewer, state.done.project)

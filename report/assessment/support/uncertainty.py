@@ -67,6 +67,7 @@ def _margin(trials: Trials, number: int, gap: ClearanceCheck) -> Margin:
     row, array = gap.clearance, trials.array
     as_given = check_alone(trials.assessment, array.id, array.displacement, row)
     minimum_mu, required, limited_by, mu = math.nan, math.nan, "—", array.array.mu
+    # Less rounding error: half of 0.14 in hundredths is 7.000000000000001.
     lowest = math.ceil(100.0 * LOWEST_SHARE * mu - 1e-6)
     if as_given.ok and is_final(array):
         minimum_mu, required, limited_by = mu, as_given.required_m, "search"

@@ -160,6 +160,7 @@ def _is_needed_elsewhere(place: _Place, formulas: Mapping[_Place, Any], cells: _
     formula = formulas[place]
     reach = formula.get("ref", "")
     if formula.get("t") != "shared":
+        # An array formula or a data table: its first cell alone has it, for all of its range.
         return ":" in reach
     group = {
         shared
