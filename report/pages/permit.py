@@ -14,6 +14,7 @@ from report.assessment.checks.sentence import texts
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.friction import mu_words
 from report.assessment.design.separation import importance_factor
+from report.assessment.design.verdict import Verdict
 from report.document.columns import centered, plain, required, text, words
 from report.document.tables import Column, Table, headed, listed, part_of, stamp
 from report.drawing.sheet import unit_format
@@ -89,16 +90,16 @@ def _separation(package: PackageData, head: str, neighbor: Neighbor) -> Column:
 
 
 def _open_checks(package: PackageData) -> Table:
-    """Return what must be met, and who acts."""
+    """Return what must be met, and who acts; what is NG has its mark."""
     done, data = package.assessment, package.data
     rows = []
     for check in done.open:
         found, limit = texts(check, data.us_first, is_both=False)
         title = f"{check.subject}: {lowered(check.title)}" if check.subject else check.title
         required_by = f"{limit} ({check.clause})" if check.clause else limit
-        cells = (title, found, required_by, check.actor.value)
-        rows.append((*map(with_symbols, cells), stamp(check.verdict)))
-    heads = ("Open", 2.0), ("Found", 2.4), ("Required", 3.0), ("Who acts", 0.9), ("", 0.8, "center")
+        mark = stamp(check.verdict) if check.verdict is Verdict.NG else ""
+        rows.append((*map(with_symbols, (title, found, required_by, check.actor.value)), mark))
+    heads = ("Open", 2.2), ("Found", 2.6), ("Required", 3.5), ("Who acts", 0.9), ("", 0.3, "center")
     return headed(*heads, rows=rows, kind="compact")
 
 
