@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -92,6 +93,11 @@ _STEP = re.compile(
     r"(?:_([a-zµμ]++)|\s*+[\[(]\s*+([a-zµμ]++)\s*+[\])])?+"
     rf"\s*+([:=]?)[\s/]*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+([a-zµμ]*)",
     re.IGNORECASE,
+)
+_FACTOR = re.compile(
+    r"\b(?:scal(?:e|ing)|conversion|calibration|multiplication|amplitude)[ _]factor\b"
+    r"[^:=\d]{0,20}[:=]?\s*+(\d++(?:\.\d*+)?(?:[eE][+-]?\d+)?)(?![\d/(])",
+    re.ASCII | re.IGNORECASE,
 )
 _GROUPED = re.compile(r"[1-9]\d{0,2},\d{3}", re.ASCII)  # one, or a thousand
 _COUNT = re.compile(
@@ -309,6 +315,16 @@ def _stated(source: Source, index: int, text: str) -> Stated:
 
 def _times(stated: Stated, size: float) -> Stated:
     return replace(stated, value=stated.value * size, rounding=stated.rounding * size)
+
+
+def factor_notes(lines: Iterable[tuple[int, str]]) -> list[str]:
+    """Note the factors that lines state, each with its index: they may be applied already."""
+    matches = ((index, _FACTOR.search(line)) for index, line in lines)
+    return [
+        f"line {index + 1} states a factor of {match[1]}, which is not applied"
+        for index, match in matches
+        if match and float(match[1]) != 1.0
+    ]
 
 
 def count_in(line: str) -> int:

@@ -96,7 +96,7 @@ def read(source: Source) -> MotionFile:
         )
         for i, values in zip(taken, columns, strict=True)
     ]
-    notes = list(time_notes)
+    notes = [*time_notes, *phrases.factor_notes(layout.remarks)]
     if in_line := _pairs_in_line(layout, table):
         notes.append(f"each line has {in_line} pairs of time and value")
     for i, why in ignored.items():

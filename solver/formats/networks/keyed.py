@@ -25,7 +25,8 @@ from solver.formats.channels import (
     offset_notes,
     time_in,
 )
-from solver.formats.numbers import Block, free_values, is_row, printed, separated
+from solver.formats.columns import remedy, rising
+from solver.formats.numbers import DECIMAL_COMMA, Block, free_values, is_row, printed, separated
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
@@ -83,7 +84,7 @@ class _Heading:
     """Entries of the lines above the first row, by what they state."""
 
     entries: dict[str, list[_Entry]]
-    step: Stated
+    steps: list[Stated]
     first: int  # index of the first row
 
     def get(self, name: str) -> _Entry:
@@ -94,7 +95,7 @@ class _Heading:
 def recognizes(source: Source) -> bool:
     """Whether lines of text state the step and the count or unit of the numbers below them."""
     heading = _heading(source)
-    if heading.first == len(source.lines) or math.isnan(heading.step.value):
+    if heading.first == len(source.lines) or not heading.steps:
         return False
     lines = [source.lines[i] for *_, i in chain.from_iterable(heading.entries.values())]
     # A table below comments alone is text, unless they name its columns.
@@ -108,12 +109,16 @@ def read(source: Source) -> MotionFile:
     first = heading.first
     top = source.lines[:first]
     if "," in source.lines[first]:
-        rows = (line.replace(",", " ") for line in source.lines[first:])
+        rows = source.lines[first:]
+        is_decimal = all(map(DECIMAL_COMMA.fullmatch, rows[0].split())) and "." not in "".join(rows)
+        # `0,12 -0,34` are two numbers, and so are `12, -34`.
+        rows = [line.replace(",", "." if is_decimal else " ") for line in rows]
         source = replace(source, lines=[*top, *rows])
     quantity, line = heading.get("quantity")[1:]
     if quantity and ("ACCELERATION" not in quantity.upper() or "SPECTRUM" in quantity.upper()):
         raise InputError(f"{source.at(line)}: found {quantity.lower()}; use a file of acceleration")
-    dt_s = source.step(heading.step)
+    stated = source.agreed(heading.steps)
+    dt_s = source.step(stated)
     names = _names(source, heading)
     # Behind the accelerations of ISESD are velocities and displacements.
     later = (i for i in range(first, len(source.lines)) if source.lines[i].startswith("->"))
@@ -121,7 +126,7 @@ def read(source: Source) -> MotionFile:
     if len(names) > 1 and phrases.parse(names[0]).kind is phrases.Kind.TIME:
         even_s, columns, _ = sampled(source, columns[0], columns[1:], first.__add__)
         even = Stated(value=even_s, rounding=1e-4 * even_s, index=first)
-        check_steps(source, heading.step, even)
+        check_steps(source, stated, even)
         names = names[1:]
     scale = _scale(source, heading)
     _, length, index = heading.get("length")
@@ -140,22 +145,22 @@ def read(source: Source) -> MotionFile:
     form = next((form for form, mark in _FORMS.items() if mark in head), "KEY: value")
     # The time zone may stand behind the time.
     begins = re.split(r"\s*(?:\(|[A-Z])", heading.get("start")[1])[0]
-    return motion_file(source, form, channels, start=time_in(begins, *_START_FORMATS))
+    notes = phrases.factor_notes(enumerate(top))
+    return motion_file(source, form, channels, notes, time_in(begins, *_START_FORMATS))
 
 
 def _heading(source: Source) -> _Heading:
     entries: dict[str, list[_Entry]] = {}
-    step = Stated()
+    steps: list[Stated] = []
     for index, line in enumerate(source.lines[:_LONGEST_HEADING]):
         # A number alone may stand among the lines of a heading.
         if entries and is_row(separated(line.replace(",", " "))):
-            return _Heading(entries=entries, step=step, first=index)
-        if math.isnan(step.value):
-            step = next(iter(phrases.steps_in(source, index, line)), step)
+            return _Heading(entries=entries, steps=steps, first=index)
+        steps += phrases.steps_in(source, index, line)
         for name, pattern in _ENTRIES.items():
             if match := pattern.fullmatch(line.strip("# ")):
                 entries.setdefault(name, []).append((match[1], match[2].strip(), index))
-    return _Heading(entries=entries, step=step, first=len(source.lines))
+    return _Heading(entries=entries, steps=steps, first=len(source.lines))
 
 
 def _words(heading: _Heading) -> list[str]:
@@ -186,6 +191,12 @@ def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats
         )
     count = sum(len(fields) for _, fields in rows)
     _, text, index = heading.get("count")
+    across = len(rows[0][1])
+    if not text and width < across:
+        raise InputError(
+            f"{source.at(heading.first)}: found {across} values in a line, and neither their number"
+            " nor names of columns above; enter the names, or the number as in NDATA: 4000"
+        )
     if text:
         number = text.strip("/").partition("/")[0]
         if not number.isdecimal():
@@ -194,7 +205,11 @@ def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats
             )
         count = width * int(number)
     block = Block(first=heading.first, stop=stop, count=count, promised=index)
-    return np.ascontiguousarray(free_values(source, block).reshape(-1, width).T)
+    values = free_values(source, block)
+    table = values[: values.size // across * across].reshape(-1, across)
+    if width == 1 < across and rising(table):
+        raise InputError(f"{source.at(heading.first)}: {remedy(table)}")
+    return np.ascontiguousarray(values.reshape(-1, width).T)
 
 
 def _scale(source: Source, heading: _Heading) -> float:

@@ -290,6 +290,11 @@ def test_a_comment_that_may_mean_something_else_asks_nothing_where_units_are_sai
         assert record.a_mps2.tolist() == [G, 2.0 * G]
 
 
+def test_a_factor_in_a_remark_is_noted(file):
+    for line, notes in (("scale factor: 1.5", 1), ("Scaling factor = 1.0", 0), ("factor 2", 0)):
+        assert len(read_motion_file(file(f"# {line}\ntime_s,acc_g\n0,1\n1,2\n")).notes) == notes
+
+
 def test_row_numbers_before_times_are_left_out(file):
     rows = "".join(f"{k},{0.01 * k:.2f},{(-1) ** k}\n" for k in range(12))
     for head in (",time_s,acc_g", '"","time_s","acc_g"', "No,Time (s),Acc (g)"):

@@ -160,10 +160,46 @@ def test_values_that_fill_their_columns_are_the_first_ones_too(file):
         f"{count}PGA (m/s/s)                   : {max(values):.7E}\n"
         "Acceleration time series in m/s/s\n"
     )
-    for above in (head, head.replace(count, "Units: m/s/s\n")):
-        record = read_motion_file(file(above + "\n".join(rows) + "\n")).channel()
-        assert (record.name, record.dt_s) == ("NS", 0.005)
-        assert record.a_mps2 == pytest.approx(np.array(values), abs=1e-7)
+    record = read_motion_file(file(head + "\n".join(rows) + "\n")).channel()
+    assert (record.name, record.dt_s) == ("NS", 0.005)
+    assert record.a_mps2 == pytest.approx(np.array(values), abs=1e-7)
+    (problem,) = input_problems(
+        read_motion_file, file(head.replace(count, "Units: m/s/s\n") + "\n".join(rows) + "\n")
+    )
+    assert problem == (
+        "roof.csv:7: found 5 values in a line, and neither their number nor names of columns above;"
+        " enter the names, or the number as in NDATA: 4000"
+    )
+
+
+HEAD = "Station: ABC\nComponent: NS\nSampling rate: 100 Hz\nUnits: gal\nNumber of points: {}\n"
+
+
+@pytest.mark.parametrize("mark", [" ", ", ", "  "])
+def test_commas_in_values_are_decimal_where_no_value_has_a_point(file, mark):
+    rows = columns(1).replace(".", ",") if mark == "  " else columns(1, mark=mark)
+    record = read_motion_file(file(HEAD.format(200) + rows)).channel()
+    assert record.a_mps2 == pytest.approx(0.01 * np.array(WAVE), abs=1e-6)
+
+
+def test_times_and_line_numbers_beside_values_are_no_values(file):
+    timed = columns(1, times=True)
+    for count, due in ((200, "found times beside them"), (400, "times rise in column 1")):
+        (problem,) = input_problems(read_motion_file, file(HEAD.format(count) + timed))
+        assert due in problem
+    cards = "".join(f"{10 * math.sin(k):.3f} {10 * math.cos(k):.3f} {k}\n" for k in range(1, 51))
+    (problem,) = input_problems(read_motion_file, file(HEAD.format(150) + cards))
+    assert problem.startswith("roof.csv:6: column 3 counts the lines: delete it; then")
+
+
+def test_two_steps_are_asked_about_and_a_factor_is_noted(file):
+    content = HEAD.format(200) + columns(1)
+    other = file(f"Original sampling rate: 500 Hz\n{content}")
+    (problem,) = input_problems(read_motion_file, other)
+    assert problem.startswith("roof.csv:4: found a step of 0.01 s and one of 0.002 s; enter the ti")
+    assert read_record(other, dt_s=0.01).dt_s == 0.01
+    notes = read_motion_file(file(f"Scale factor: 0.1\n{content}")).notes
+    assert notes == ("line 1 states a factor of 0.1, which is not applied",)
 
 
 def test_a_file_of_peer_that_has_such_lines_is_one_of_peer(file):
