@@ -45,6 +45,10 @@ _NAMES: dict[str, str] = {}
 for _kind, (_names, _) in _KINDS.items():
     _NAMES |= dict.fromkeys(_names, _kind)
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
+_DAMPING = re.compile(
+    r"damp\w*\W{0,3}(?:ratio\W{0,3})?(\d+(?:\.\d+)?) ?%|(\d+(?:\.\d+)?) ?%[\w ]{0,20}damp",
+    re.ASCII | re.IGNORECASE,
+)
 _WANTED = "frequency [Hz] or period [s], horizontal [g] and, optionally, vertical [g]"
 # Allows for band limits given as rounded periods, such as 3.33 s.
 _ROUNDED = 0.01
@@ -197,6 +201,10 @@ def _columns(
     for cell in above:
         if is_of_another(cell.shown):
             remedy = "use accelerations in g, or delete a line that is not of the columns"
+            problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", remedy, cell.address))
+        damping = _DAMPING.search(cell.shown)
+        if damping and float(damping[1] or damping[2]) != 5.0:
+            remedy = "use the spectrum at 5% damping, or delete a line that is not of the columns"
             problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", remedy, cell.address))
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):
         if not kind:

@@ -112,8 +112,8 @@ def read(source: Source) -> MotionFile:
         rows = source.lines[first:]
         is_decimal = all(map(DECIMAL_COMMA.fullmatch, rows[0].split())) and "." not in "".join(rows)
         # `0,12 -0,34` are two numbers, and so are `12, -34`.
-        rows = [line.replace(",", "." if is_decimal else " ") for line in rows]
-        source = replace(source, lines=[*top, *rows])
+        plain = (line.replace(",", "." if is_decimal else " ") for line in rows)
+        source = replace(source, lines=[*top, *plain])
     quantity, line = heading.get("quantity")[1:]
     if quantity and ("ACCELERATION" not in quantity.upper() or "SPECTRUM" in quantity.upper()):
         raise InputError(f"{source.at(line)}: found {quantity.lower()}; use a file of acceleration")
@@ -145,8 +145,8 @@ def read(source: Source) -> MotionFile:
     form = next((form for form, mark in _FORMS.items() if mark in head), "KEY: value")
     # The time zone may stand behind the time.
     begins = re.split(r"\s*(?:\(|[A-Z])", heading.get("start")[1])[0]
-    notes = phrases.factor_notes(enumerate(top))
-    return motion_file(source, form, channels, notes, time_in(begins, *_START_FORMATS))
+    factors = phrases.factor_notes(enumerate(top))
+    return motion_file(source, form, channels, factors, time_in(begins, *_START_FORMATS))
 
 
 def _heading(source: Source) -> _Heading:

@@ -319,6 +319,8 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
         ("period [s],sa [%g]", "is 'sa [%g]'; enter horizontal [g]"),
         ("period,sa,Vertical PSA (g)", "target.csv:1: is 'Vertical PSA (g)'; enter vertical [g]"),
         ("Sa in cm/s2\nperiod,sa", "target.csv:1: says 'Sa in cm/s2'; use accelerations in g"),
+        ("# damping: 2%\nperiod,sa", "target.csv:1: says '# damping: 2%'; use the spectrum at 5%"),
+        ("10 % of critical damping\nperiod,sa", "target.csv:1: says '10 % of critical damping'; u"),
         ("# Units: mg\nperiod,sa", "target.csv:1: says '# Units: mg'; use accelerations in g"),
         ("Velocity (cm/s)\nperiod,sa", "target.csv:1: says 'Velocity (cm/s)'; use accelerat"),
         ("a,b", "target.csv: no row of headings in the first 10 rows; enter frequency [Hz]"),
