@@ -171,6 +171,7 @@ def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cell
     top = TOP + len(assessment.linked) + 2
     rows: list[SheetRow] = []
     peaks: list[SheetRow] = []
+    # Below the row of headings of the LinkRuns worksheet, in the order in which it lists them.
     first_run = 2
     for linked in assessment.linked:
         first = top + len(peaks)

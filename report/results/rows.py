@@ -145,6 +145,7 @@ def _motion(motion: Motion, prepared: PreparedMotion) -> MotionResult:
     return MotionResult(
         id=motion.id, recorded_at=prepared.recorded_at, processing=prepared.done,
         scaling=prepared.scaling, scale=motion.scale, dt_s=motion.dt_s, npts=len(motion.ax_mps2),
+        # Little-endian on every machine.
         sha256=hashlib.sha256(samples.astype("<f8").tobytes()).hexdigest(),
         components=prepared.measures,
         building={name: _roof(roof) for name, roof in prepared.roof.items()},
@@ -330,6 +331,7 @@ def _neighbor(pair: PlanNeighbor) -> NeighborResult:
 def _remedies(advice: Remedies) -> Iterator[RemedyResult]:
     """Yield the remedies of each check, then the changes that are enough together, if several."""
     remedies_of_checks = [((remedy,), remedy.done) for remedy in advice.own]
+    # A change that is enough alone is among those of the checks already.
     together = (advice.together[len(advice.together) == 1 :], advice.done)
     for remedies, done in [*remedies_of_checks, together]:
         if remedies and done:

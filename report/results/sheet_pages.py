@@ -44,6 +44,7 @@ _PAGE_PX, _LEAST_SCALE = 970, 60
 def text_workbook(buffer: BytesIO, date: dt.date, title: str = "") -> Workbook:
     """Return a workbook to write, in which untrusted text is never a formula or link."""
     as_text = ("strings_to_formulas", "strings_to_urls", "strings_to_numbers")
+    # The library refuses NaN and infinity otherwise.
     workbook = Workbook(buffer, dict.fromkeys(as_text, False) | {"nan_inf_to_errors": True})
     # Two runs give the same bytes: the date is that of the project, not the current date.
     workbook.set_properties({"title": title, "created": dt.datetime.combine(date, dt.time())})
