@@ -10,7 +10,6 @@ import importlib
 import importlib.metadata
 import importlib.util
 import math
-import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -25,7 +24,15 @@ from solver.records.record import Record
 from solver.sliding import checked, one_axis, two_axes
 from solver.verification import model_checks
 from solver.verification.evidence import percent_off
-from solver.verification.study_cases import MODEL_CASES, Case, clocked, posed, samples_of, scene_of
+from solver.verification.study_cases import (
+    CLOCK,
+    MODEL_CASES,
+    Case,
+    clocked,
+    posed,
+    samples_of,
+    scene_of,
+)
 from solver.verification.verification_motions import cut
 
 SUBSTEPS = 10
@@ -112,7 +119,7 @@ def _point(peer: Peer, model: str, record: str, case: Case, scene: Scene) -> Pee
     note, seconds = peer.note, math.nan
     try:
         importlib.import_module(peer.module)
-        prd_m, seconds = clocked(partial(peer.prd_m, scene), time.process_time)
+        prd_m, seconds = clocked(partial(peer.prd_m, scene), CLOCK)
         if not math.isfinite(prd_m):
             seconds, note = math.nan, f"{note}; did not converge"
     except Exception as error:  # another program may raise anything

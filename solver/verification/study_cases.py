@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
@@ -112,6 +113,10 @@ ENOUGH_S = 0.02
 BATCH_S = 1e-3
 """Time that short runs are repeated for between two readings of the clock [s]."""
 
+# Windows counts processor time in ticks of 16 ms: a short run would take none.
+CLOCK = time.perf_counter if sys.platform == "win32" else time.process_time
+"""The clock of runs [s]."""
+
 
 def grid(
     slopes_deg: Iterable[float], mus: Iterable[float], ppas_g: Iterable[float]
@@ -209,7 +214,7 @@ def processor_seconds(work: Callable[[], object]) -> float:
 
     Leaves out what other programs take while a long run lasts, and counts all threads.
     """
-    _, once_s = clocked(work, time.process_time)
+    _, once_s = clocked(work, CLOCK)
     # A short run many times: reading the clock takes about as long as one.
     count = 1 + int(BATCH_S / (once_s + 1e-6))
 
@@ -219,7 +224,7 @@ def processor_seconds(work: Callable[[], object]) -> float:
 
     if once_s > ENOUGH_S:
         return once_s
-    return min(clocked(batch, time.process_time)[1] for _ in range(REPEATS)) / count
+    return min(clocked(batch, CLOCK)[1] for _ in range(REPEATS)) / count
 
 
 def unexplained(computed: Floats, recorded: Floats) -> float:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from typing import Any
@@ -30,6 +29,7 @@ from solver.sliding.method import AxisScene, Method
 from solver.sliding.one_axis import RecordBounds, bounds_of
 from solver.verification.evidence import percent_off
 from solver.verification.study_cases import (
+    CLOCK,
     MODEL_CASES,
     TIGHT,
     Case,
@@ -158,7 +158,7 @@ def work(triples: Iterable[Motion], *, quick: bool) -> pd.DataFrame:
         # Interpreted steps take half a minute for a whole motion: they are run in one case of it.
         interpreted = quick or case == MODEL_CASES[0]
         for method, setting, words, solve in _runs_in_plane(scene, interpreted=interpreted):
-            end, seconds = clocked(solve, time.process_time)
+            end, seconds = clocked(solve, CLOCK)
             off_m = math.dist(end, (truth.residual_m, truth.residual_across_m))
             # One run is enough where it takes seconds.
             if method != SCIPY:

@@ -118,7 +118,7 @@ def checkout(tmp_path_factory):
     """What an image is made of, with the tests, in a folder with a blank and an accent."""
     folder = tmp_path_factory.mktemp("launcher") / "Roof slip é"
     rules = re.findall("^!(.*)", (ROOT / ".dockerignore").read_text(), re.M)
-    for path in (path for rule in (*rules, "tests") for path in ROOT.glob(rule)):
+    for path in (path for rule in (*rules, "tests", "docs/method.md") for path in ROOT.glob(rule)):
         target = folder / path.relative_to(ROOT)
         target.parent.mkdir(parents=True, exist_ok=True)
         if path.is_dir():
