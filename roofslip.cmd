@@ -121,5 +121,5 @@ exit /b 1
 :ask
 echo roofslip: the set-up is not complete. If a download was refused, ask your IT to allow GitHub and the Python 1>&2
 echo package index, or to install uv (winget install --id astral-sh.uv) with access to both. If a path was too long, 1>&2
-echo move this folder to a shorter one. Then run this again. What was set up before works as it did. 1>&2
+echo move this folder to a shorter one. Then run this again. The existing installation still works. 1>&2
 exit /b 1

@@ -265,9 +265,9 @@ def _results() -> Iterator[str]:
     for key, field in written["properties"].items():
         yield f"| `{key}` | {_type(field, models)} | {_text(meaning(key, field, said))} |"
     yield (
-        "\n`schema_version` is raised where a key changes its name or meaning. "
-        "`report --since` reads files of this version and of the one before, whose checks it "
-        "leaves out.\n"
+        "\n`schema_version` is increased if the name or meaning of a key changes. "
+        "`report --since` reads files of this version and of the previous one, whose checks are "
+        "not compared.\n"
     )
 
 

@@ -108,7 +108,8 @@ def make(
     pdf = lay_out(html, attachments(files, results, short), sheet_counts.append)
     if assessment.project.options.package_edition is PackageEdition.LETTER and sheet_counts[0] > 2:
         raise InputError(
-            f"Options: edition is letter, of two sheets; what is entered takes {sheet_counts[0]}: "
+            "Options: edition is letter, which has two sheets; this input requires"
+            f" {sheet_counts[0]}: "
             "choose plan check, or Letter or A4 for the roof plan"
         )
 
@@ -151,10 +152,10 @@ def _record_confirmations(sheet: Sheet, motions: Shaking, tell: Callable[[str], 
     try:
         with changing(sheet.path, keeps_copy=False) as change:
             if change.book.sha256 != sheet.sha256 or not os.access(sheet.path, os.W_OK):
-                raise InputError("the workbook is read-only, or was saved meanwhile")
+                raise InputError("the workbook is read-only, or was saved in the meantime")
             change.note(new)
     except (InputError, OSError) as error:
-        tell(f"{where}: what was confirmed is not put on record: {error}")
+        tell(f"{where}: the confirmed inputs were not recorded: {error}")
         return False
-    tell(f"{where}: what was confirmed is on record")
+    tell(f"{where}: the confirmed inputs were recorded")
     return True

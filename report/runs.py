@@ -154,7 +154,7 @@ class Runs:
             scene = scene_key(array)
             for motion in motions:
                 if self._motions.setdefault(motion.id, motion) is not motion:
-                    raise DefectError(f"{motion.id} is another motion than in the runs before")
+                    raise DefectError(f"{motion.id} is not the same motion as in the earlier runs")
                 names = self._names(array, motion)
                 if (scene, motion.id, names) not in self._batches:
                     known = [

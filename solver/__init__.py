@@ -31,8 +31,8 @@ Targets, suites and buildings:
 
     design_spectrum     Return the design response spectrum at the ground.
     factor_to_target    Return the factor that scales a motion to a target spectrum.
-    ac156_horizontal    Return the horizontal AC156 spectrum, 5 % damping.
-    ac156_vertical      Return the vertical AC156 spectrum, 5 % damping: 0.67 S_DS and 0.27 S_DS.
+    ac156_horizontal    Return the horizontal AC156 spectrum, 5% damping.
+    ac156_vertical      Return the vertical AC156 spectrum, 5% damping: 0.67 S_DS and 0.27 S_DS.
     make_suite          Generate motions of two horizontal components and a vertical component each.
     building_of_periods Return a uniform building whose first modes have the given periods.
     at_roof             Return a ground motion as the roof of an elastic building has it.

@@ -91,7 +91,7 @@ def _wrong(name: str, parts: Sequence[str]) -> str:
     if len(parts) > _DEEPEST:
         return f"is more than {_DEEPEST - 1} folders deep; move it up"
     if any(part in ("", ".", "..") for part in parts):
-        return "is no path within a folder; rename the file"
+        return "is not a path within a folder; rename the file"
     if reserved := [part for part in parts if _DEVICE.fullmatch(part)]:
         return f"is not allowed: Windows reserves the name '{reserved[0]}'; rename it"
     if any(_FORBIDDEN.search(part) for part in parts):

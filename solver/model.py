@@ -40,7 +40,7 @@ class Status(StrEnum):
 
 
 _SENTENCES = {
-    Status.OK: "analyzed to the end of the record, where the block is at rest",
+    Status.OK: "at rest at the end of the record",
     Status.SLIDING_AT_END: "still sliding at the end of the record: the displacement is not final",
     Status.UPLIFT: "the normal force falls below zero: outside the model, no displacement reported",
     Status.DIVERGED: "the method did not converge or became unstable: no displacement reported",

@@ -28,9 +28,9 @@ def _largest(a, dt, omega, steps):
 
 
 def psa_g(a_mps2, dt_s, freq_hz, places=400):
-    """5 % damped pseudo-acceleration [g]; `places` to a period or more miss 1 - cos(pi / places).
+    """5% damped pseudo-acceleration [g]; `places` to a period or more miss 1 - cos(pi / places).
 
-    With 400 that is 0.003 %.
+    With 400 that is 0.003%.
     """
     return np.array(
         [

@@ -76,7 +76,7 @@ def test_two_workbooks_with_one_folder_do_not_replace_each_other(tmp_path, priva
     other.write_text('{"workbook": {"name": "a.XLSX"}}')
     (job / "b.xlsx").write_bytes(b"no workbook")
     told = commands.errors_of("report", job / "a.xlsx", job / "b.xlsx")
-    assert "has the results of a.XLSX, not of a.xlsx" in told
+    assert "contains the results of a.XLSX, not of a.xlsx" in told
     assert other.read_text() == '{"workbook": {"name": "a.XLSX"}}'
 
 

@@ -393,7 +393,7 @@ def test_a_set_up_that_fails_leaves_what_was_set_up(tmp_path):
     done = called(folder, "verify")
     assert done.returncode == 1
     assert "the packages for verify could not be installed: connect to the network" in done.stderr
-    assert done.stderr.endswith("What was set up works as before\n")
+    assert done.stderr.endswith("The existing installation still works\n")
     assert stamp.read_text() == before
     assert calls_of(folder) == [f"python -P {folder}/.venv/bin/roofslip check x"]
     failing(folder, "uv", "true")

@@ -97,8 +97,8 @@ def test_a_workbook_that_a_program_has_open_is_not_changed(folder, writer, lock)
     (folder / lock).write_bytes(b"")
     before = state(folder.parent)
     told = commands.errors_of(*writes(writer, folder))
-    assert f"{folder / lock}: is there, so a program has the workbook open; close it there" in told
-    assert "delete that file if none has" in told
+    assert f"{folder / lock} exists, so a program has the workbook open; close it there" in told
+    assert "delete this file if no program has it open" in told
     assert state(folder.parent) == before
     (folder / lock).unlink()
     commands.stdout_of(*writes(writer, folder))

@@ -31,7 +31,7 @@ fragilities = {
 for words, found in fragilities.items():
     low, high = found.theta_range
     print(
-        f"{words}: median {found.fitted.theta:.3f} g (90 % interval {low:.3f} to {high:.3f}), "
+        f"{words}: median {found.fitted.theta:.3f} g (90% interval {low:.3f} to {high:.3f}), "
         f"dispersion {found.fitted.beta:.3f}"
     )
 

@@ -81,7 +81,7 @@ def _prd(table: pd.DataFrame) -> Figure:
                 axes.plot(
                     rows.index, rows["p84_m"] / INCH, linestyle=LINES[0], marker=MARKERS[count],
                     markersize=3.5, markerfacecolor="white", linewidth=0.9, color=color,
-                    label=f"μ = {mu:g}, 84 %",
+                    label=f"μ = {mu:g}, 84%",
                 )  # fmt: skip
                 axes.plot(
                     rows.index, rows["median_m"] / INCH, linestyle=LINES[1], marker=MARKERS[count],
@@ -106,7 +106,7 @@ def _draw_prescriptive(axes: Axes) -> None:
 
 def _least_friction(table: pd.DataFrame) -> Figure:
     with style():
-        figure, panels = _panels(f"Least μ, 84 % of PRD within {LIMIT_IN} in")
+        figure, panels = _panels(f"Least μ, 84% of PRD within {LIMIT_IN} in")
         for axes, period in zip(panels, PERIODS_S, strict=True):
             rows = table.loc[period][f"least_mu_{LIMIT_IN}_in"].unstack("slope_deg")
             draw_family(
@@ -153,7 +153,7 @@ def _equation(
         )
         for slope_deg, color, band in ((0.0, INK, PALE), (4.0, ACCENT, "#c9d8ea")):
             r, low, median, high = _binned(responses, events, slope_deg)
-            left.fill_between(r, low, high, color=band, label=f"{slope_deg:g}°, 16 to 84 %")
+            left.fill_between(r, low, high, color=band, label=f"{slope_deg:g}°, 16 to 84%")
             left.plot(r, median, "o", markersize=3.0, color=color, label=f"{slope_deg:g}°, median")
             ratchets = np.exp(fitted.s * np.sqrt(np.radians(slope_deg) / r))
             by_formula = fitted.c * (1.0 - r) ** fitted.p * ratchets
@@ -180,7 +180,7 @@ def _equation(
 def _binned(
     responses: Sequence[Response], events: Sequence[str], slope_deg: float
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return r with the 16 %, median and 84 % of PRD A / V^2 in its bins, for mu = 0.5."""
+    """Return r with the 16%, median and 84% of PRD A / V^2 in its bins, for mu = 0.5."""
     edges = np.linspace(0.1, 0.9, 17)
     r, length = [], []
     for response, is_fitted in zip(responses, halves(events), strict=True):

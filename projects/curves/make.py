@@ -48,7 +48,7 @@ G = STANDARD_GRAVITY_MPS2
 INCH = 0.0254
 
 PERIODS_S = (0.0, 0.3, 0.8, 1.5)
-"""First periods of what the arrays stand on; 0 is rock, the others shear buildings with 5 %."""
+"""First periods of what the arrays stand on; 0 is rock, the others shear buildings with 5%."""
 
 SLOPES_DEG = np.linspace(0.0, 7.0, 29)
 MUS = np.round(np.linspace(0.30, 1.00, 15), 2)
@@ -177,7 +177,7 @@ def cases(prd_m: Floats) -> pd.DataFrame:
 
 
 def least_friction(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the least friction coefficient for which the 84 % PRD is within each limit.
+    """Return the least friction coefficient for which the 84% PRD is within each limit.
 
     Interpolated between those run, and rounded up to 0.01; NaN where the largest is not enough.
     """
@@ -193,10 +193,10 @@ def least_friction(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def capacities(prd_m: Floats) -> pd.DataFrame:
-    """Return the S_DS at which 16, 50 and 84 % of the components exceed each limit.
+    """Return the S_DS at which 16, 50 and 84% of the components exceed each limit.
 
     The capacity of a component is the S_DS at which its PRD first exceeds a limit, on straight
-    lines between the runs, and `beta` the record-to-record dispersion, half of ln(84 % / 16 %).
+    lines between the runs, and `beta` the record-to-record dispersion, half of ln(84% / 16%).
     Blank outside the S_DS that were run.
     """
     rows = []

@@ -108,13 +108,13 @@ def _not_run(data: ProjectInput) -> Iterator[Finding]:
     """Yield what a workbook without motions asks for and only runs can give."""
     asked = (
         (Place("links"), "the comparison with a row of linked blocks", bool(data.links)),
-        (Place("options", 0, "smaller_events"), "the sum with smaller events",
+        (Place("options", 0, "smaller_events"), "the sum including smaller events",
          bool(data.options.smaller_factors)),
         (Place("options", 0, "peer_reviewed"), "peer review", data.options.peer_reviewed),
     )  # fmt: skip
     for place, noun, is_asked in asked:
         if is_asked:
-            yield note(place, f"{noun} needs motions and is skipped")
+            yield note(place, f"{noun} requires motions and is skipped")
 
 
 def missing_clearances(sheet: Sheet) -> Iterator[Finding]:

@@ -35,7 +35,8 @@ def fill_ballast(
         if not blocks:
             problem = "no ballast block of the map is inside an array on the plan"
             raise InputError(
-                f"{problem}; use --units of the map, or x and y from the plan's origin"
+                f"{problem}; use the --units of the map, and measure x and y from the origin of"
+                " the plan"
             )
         weights = {name: load.blocks * block_n for name, load in blocks.items()}
         cell_values: dict[str, float | None] = {**weights}
@@ -50,13 +51,13 @@ def fill_ballast(
             text = "no blocks"
             if row.get("ballast_n") is not None:
                 weight_text = pair(row["ballast_n"], Quantity.WEIGHT, is_us)
-                fate = "are taken out" if replace else "stay without --replace"
-                text += f"; the {weight_text} given {fate}"
+                fate = "was deleted" if replace else "is kept; use --replace to delete it"
+                text += f"; the entered weight, {weight_text}, {fate}"
         click.echo(plain(f"{name}: {text}"))
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
-        click.echo(f"outside of every array: {lines}")
-    click.echo(f"{sheet.path}: the ballast weights are filled in: {change.areas}")
+        click.echo(f"outside all arrays: {lines}")
+    click.echo(f"{sheet.path}: ballast weights filled in: {change.areas}")
     say_next(project, change.has_formulas)
 
 
@@ -67,7 +68,7 @@ def _balance(row: InputRow, load: Load, ballast_n: float, is_us: bool) -> str:
     center = center_of_gravity(load, ballast_n, modules_n)
     offset = (center[0] - load.centroid[0], center[1] - load.centroid[1])
     x, y, offset_x, offset_y = (pair(value, Quantity.PLAN, is_us) for value in (*center, *offset))
-    content = f"ballast and {modules} modules" if modules_n else "the ballast alone"
+    content = f"ballast and {modules} modules" if modules_n else "the ballast only"
     return (
         f"{numbered(load.blocks, 'block')}, {pair(ballast_n, Quantity.WEIGHT, is_us)}; center of"
         f" gravity of {content} at x {x}, y {y}; from the centroid of the outline {offset_x} in x,"

@@ -44,7 +44,7 @@ def add_clearances(change: WorkbookChange) -> Sequence[str]:
             arrays = assess(to_run, shaking).arrays
         except InputError as error:
             # Rows within twice the prescriptive displacement are known without a run.
-            not_run = [f"the motions cannot be run: {error.problems[0]}"]
+            not_run = [f"cannot run the motions: {error.problems[0]}"]
     cells, lines = missing_rows(sheet, arrays)
     change.fill(cells)
     return [*not_run, *lines]

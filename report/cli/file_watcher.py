@@ -43,7 +43,7 @@ def watch_project(source: Path, out: Path | None, interrupts: Sequence[int]) -> 
         with suppress(SystemExit):
             results = report_again(workbook, out, results)
         gc.collect()  # a package leaves much that refers to itself
-        click.echo(f"watching {workbook.parent}; end with Ctrl+C")
+        click.echo(f"watching {workbook.parent}; press Ctrl+C to stop")
         while not interrupts and file_stamps(workbook.parent) == stamps:
             time.sleep(POLL_S)
     # Python drops it in a finalizer, and compiled code may raise an error of its own for it.

@@ -99,7 +99,7 @@ def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     # Imported for an error alone: `motion` and `slide` need no models of a workbook.
     from report.project.check.finding_lines import grouped, line_of
 
-    click.echo(f"{plain(source)}: {numbered(len(problems), 'problem')} found.", err=True)
+    click.echo(f"{plain(source)}: {numbered(len(problems), 'error')}:", err=True)
     for equal_problems in grouped(problems):
         click.echo(f"  {as_typed(plain(line_of(equal_problems)))}", err=True)
 
@@ -110,8 +110,7 @@ def system_problem(error: OSError) -> Problem:
     if not error.filename:
         return Problem(
             f"a file cannot be written or read ({reason})",
-            f"free disk space, also for temporary files{_place()}, or raise the limit on the size "
-            "of files",
+            f"free disk space, also for temporary files{_place()}, or raise the file size limit",
         )
     return Problem(
         f"{error.filename}: the operating system denied access ({reason})",

@@ -37,7 +37,7 @@ def check_installation() -> None:
             remedies.append(f"{name}: {remedy}")
     if remedies:
         raise click.ClickException("\n".join(remedies))
-    click.echo("Everything that a package needs is here.")
+    click.echo("Everything needed to create a package is installed.")
 
 
 def _checks() -> Iterator[tuple[str, Callable[[], str | None], str]]:
@@ -45,7 +45,7 @@ def _checks() -> Iterator[tuple[str, Callable[[], str | None], str]]:
     yield "Python", _python_and_system, ""
     yield "cores", partial(str, os.cpu_count()), ""
     launcher = os.path.join(".", "roofslip")
-    locked = f"install it: {launcher} does so from requirements.lock"
+    locked = f"run {launcher}, which installs it from requirements.lock"
     yield "roofslip", version, locked
     # Extras have a marker after a semicolon: a package needs none of them.
     for requirement in requires("roofslip") or ():
@@ -55,7 +55,7 @@ def _checks() -> Iterator[tuple[str, Callable[[], str | None], str]]:
     for name, package in NATIVE.items():
         debian = f"install it: sudo apt-get install {package}"
         yield name, partial(library, name), locked if sys.platform == "win32" else debian
-    again = f"remove .venv and run {launcher} again; if it stays, report it"
+    again = f"delete .venv and run {launcher} again; if the error persists, report it"
     yield "test run", _test_run, again
     yield (
         "test page",

@@ -60,7 +60,7 @@ class _Commands(LazyGroup):
                     raise
             except KeyboardInterrupt:
                 pass
-        click.echo("Interrupted: the work was cut off.", err=True)
+        click.echo("Interrupted before the end.", err=True)
         sys.exit(INTERRUPTED)
 
 
@@ -96,9 +96,10 @@ def main() -> None:
     settings = os.path.abspath(".numba_config.yaml")
     if os.path.lexists(settings):
         click.echo(
-            f"{plain(settings)}: this file can make the compiler of the solver run code that came "
-            "with it; remove it, or change to another folder. Settings of numba can be given as "
-            "environment variables.",
+            f"{plain(settings)}: this file can make numba, the compiler of the solver, run code"
+            " from "
+            "this folder; delete it, or change to another folder. Use environment variables "
+            "for numba settings instead.",
             err=True,
         )
         sys.exit(INPUT_ERROR)
@@ -114,7 +115,7 @@ main.add_section(
     f"{_COMMANDS}.project:schema",
 )
 main.add_section(
-    "Sheet", f"{_COMMANDS}.project:new", f"{_COMMANDS}.project:check", f"{_COMMANDS}.plan:plan"
+    "Workbook", f"{_COMMANDS}.project:new", f"{_COMMANDS}.project:check", f"{_COMMANDS}.plan:plan"
 )
 main.add_section("Motions", f"{_COMMANDS}.motion:motion", f"{_COMMANDS}.motion:slide")
 main.add_section("Studies", f"{_COMMANDS}.study:study")

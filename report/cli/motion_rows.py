@@ -35,7 +35,8 @@ def add_motions(
         # A default would be wrong in silence: ground motions go through the building.
         if project and not recorded_at:
             raise InputError(
-                "--at is missing; use --at roof or --at ground, where the motions were recorded"
+                "--at is missing; use --at roof or --at ground, depending on where they were"
+                " recorded"
             )
         folder, name_of_all = source, ""
         if not folder.is_dir():
@@ -56,9 +57,9 @@ def add_motions(
         without = [name for name, records in sets.items() if len(records) == 2]
         if without:
             click.echo(
-                f"note: {plain(', '.join(without))}: without a vertical record. Motions for"
-                " analysis have two horizontal components and the vertical together: the"
-                " analysis procedure is not permitted with these."
+                f"note: {plain(', '.join(without))}: no vertical record. The analysis procedure"
+                " requires motions with two horizontal components and a vertical component,"
+                " so it is not permitted with these motions."
             )
         if not sets:
             raise InputError("no set of two horizontal records and a vertical one found")

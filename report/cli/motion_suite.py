@@ -71,7 +71,7 @@ def generate_suite(
     if sheet:
         earlier_ids = {row.get("id") for row in sheet.inputs["motions"]}
         renewed = len({row["id"] for row in rows} & earlier_ids)
-        also = f", {renewed} renewed" if renewed else ""
+        also = f", {renewed} updated" if renewed else ""
         added = f"{numbered(count - renewed, 'row')} added to the Motions worksheet{also}"
         click.echo(f"{sheet.path}: {added}: {change.areas}")
         say_next(sheet.path, change.has_formulas)

@@ -22,8 +22,8 @@ def new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -
     with input_errors(folder):
         path = _write(folder, UnitsFirst(units), is_example=is_example, is_study=is_study)
     if is_example:
-        click.echo(f"{path}: a warehouse with three arrays and seven motions, complete;")
-        click.echo(f"to see its package, run: {command('report', folder)}")
+        click.echo(f"{path}: a complete example, a warehouse with three arrays and seven motions;")
+        click.echo(f"to create its package, run: {command('report', folder)}")
         return
     click.echo(f"{path}: fill in the yellow cells, put the roof motions in {folder / 'records'},")
     click.echo(f"then run: {command('study' if is_study else 'check', folder)}")

@@ -102,7 +102,8 @@ def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record
     for record in components:
         if has_gravity(record.a_mps2):
             problems.append(
-                f"{record.name}: has a mean of about 1 g: gravity is in it; subtract the mean"
+                f"{record.name}: the mean is about 1 g because the record includes gravity;"
+                " subtract the mean"
             )
     for record in components[1:]:
         first = components[0]

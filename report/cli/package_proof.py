@@ -33,9 +33,9 @@ COMPARING = 0.1
 """Usual time of the comparison, as a share of that of the package."""
 
 _ANSWERS = {
-    "same": "Same: the embedded input gives this package byte for byte.",
+    "same": "Same: the embedded input reproduces this package byte for byte.",
     "not compared in full": "Not compared in full; no differences in what was compared:",
-    "differs": "Differs from the package that its embedded input gives:",
+    "differs": "Differs from the package that its embedded input produces:",
 }
 
 
@@ -118,7 +118,7 @@ def _print(proof: Proof, written: str) -> None:
     for signature in proof.signed:
         click.echo(
             plain(
-                f"Signed since, in the field '{signature.field}', by '{signature.signer}'. The "
+                f"Signed later in the field '{signature.field}', by '{signature.signer}'. The "
                 "issuer of the certificate was not checked; a PDF reader does that."
             )
         )
@@ -139,7 +139,7 @@ def sign_package(
             check_plain(target, file.parent)
         password = _typed_password() if password is None else password
         if target.exists() and target.samefile(file):
-            raise InputError("the signed package needs a name of its own; choose another --out")
+            raise InputError("the signed package must have a different name; use another --out")
         content = signed(read_package(file), certificate, password, time_stamp)
         write_whole(target, content)
     click.echo(target)
@@ -154,6 +154,6 @@ def _typed_password() -> str:
             password: str = click.prompt("Password", hide_input=True)
         except GetPassWarning as error:
             raise InputError(
-                "the password cannot be asked for without a terminal; set ROOFSLIP_P12_PASSWORD"
+                "cannot prompt for the password without a terminal; set ROOFSLIP_P12_PASSWORD"
             ) from error
     return password

@@ -39,7 +39,7 @@ _TOKEN = re.compile(r"[A-Za-z0-9_~.-]+")
 _NOT_ENCRYPTED = (
     "warning: the connection is not encrypted; put a reverse proxy with TLS in front of it"
 )
-_MORE = "Press Enter for another address, Ctrl+C to end."
+_MORE = "Press Enter for another address, or Ctrl+C to stop."
 _STOPPED_S = 3
 _VISIT_S = 120.0
 
@@ -114,7 +114,7 @@ def _token(file: Path) -> str:
         token = read_file(file, MAX_TOKEN).decode(errors="replace").strip()
     if len(token) < MIN_TOKEN or not _TOKEN.fullmatch(token):
         accepted = f"{MIN_TOKEN} or more letters, digits, '-', '_', '.' and '~', on one line"
-        click.echo(f"{file}: has no token; enter {accepted}.", err=True)
+        click.echo(f"{file}: no token found; enter {accepted}.", err=True)
         sys.exit(INPUT_ERROR)
     return token
 
@@ -130,7 +130,10 @@ def listen(host: str, port: int) -> socket.socket:
         return listening
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
-            message = f"Port {port} of {host} is in use: end what uses it, or use another --port."
+            message = (
+                f"Port {port} of {host} is in use: stop the program that uses it, or use"
+                " another --port."
+            )
         else:
             message = f"{host}, port {port}: cannot listen there; use another --port or --host."
         click.echo(message, err=True)

@@ -79,7 +79,7 @@ def read_plan(
         # The plan is filled in all the same: it is what the next errors are corrected on.
         except InputError as error:
             clearance_lines = [
-                f"Clearances are not added yet: {error.problems[0]}.",
+                f"Clearances have not been added: {error.problems[0]}.",
                 f"Once the workbook has no errors, run: {command('plan clearances', project)}",
             ]
         withdrawn_lines = withdrawn(change)
@@ -96,7 +96,7 @@ def read_plan(
 
 
 def _kinds(layers: Sequence[str]) -> dict[str, LayerKind]:
-    """Return what each `--layer NAME=KIND` says, by the name."""
+    """Return what each `--layer NAME=TYPE` says, by the name."""
     kinds = {}
     for text in layers:
         # From the right: a layer may have the sign in its name, a kind has not.
@@ -104,7 +104,7 @@ def _kinds(layers: Sequence[str]) -> dict[str, LayerKind]:
         if not name or kind.lower() not in list(LayerKind):
             choices = ", ".join(LayerKind)
             raise click.BadParameter(
-                f"'{text}' is not NAME=KIND, where KIND is one of {choices}.",
+                f"'{text}' is not NAME=TYPE, where TYPE is one of {choices}.",
                 ctx=click.get_current_context(),
                 param_hint="'--layer'",
             )
@@ -140,8 +140,8 @@ def choose(
             click.echo(plain(line))
         raise InputError(
             f"nothing was written: no type is known for {numbered(len(kinds), 'layer')};"
-            " use --accept to accept the proposed types, or --layer NAME=KIND for a layer, where"
-            f" KIND is one of {', '.join(LayerKind)}"
+            " use --accept to accept the proposed types, or --layer NAME=TYPE for a layer, where"
+            f" TYPE is one of {', '.join(LayerKind)}"
         )
     return {**option_kinds, **{layer: kind for layer, kind in kinds.items() if kind}}
 
@@ -163,7 +163,10 @@ def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
     if not unit:
         if roof_drawing.other_unit:
             raise InputError(roof_drawing.other_unit)
-        raise InputError(f"states no unit; use --units with one of {', '.join(UNIT_CHOICES)}")
+        raise InputError(
+            "the drawing does not state its unit; use --units with one of"
+            f" {', '.join(UNIT_CHOICES)}"
+        )
     return roof_drawing, LENGTHS[unit]
 
 
@@ -172,7 +175,9 @@ def _turned(drawing: RoofDrawing, rotate_deg: float) -> tuple[RoofDrawing, list[
     # North is given from +x, counterclockwise.
     degrees = 90.0 - drawing.north_deg if math.isnan(rotate_deg) else rotate_deg
     if math.isnan(degrees):
-        raise InputError("states no north (GEODATA); use --rotate in degrees")
+        raise InputError(
+            "the drawing does not state north (GEODATA); use --rotate with an angle in degrees"
+        )
     lines = []
     if degrees:
         drawing = drawing.turned(degrees)
@@ -181,7 +186,7 @@ def _turned(drawing: RoofDrawing, rotate_deg: float) -> tuple[RoofDrawing, list[
         north = f"{drawing.north_deg:.6g}° counterclockwise from +x"
         lines += [f"north is {north}: check it on the Building worksheet"]
     elif degrees:
-        lines += ["the drawing states no north: check its direction on the Building worksheet"]
+        lines += ["the drawing does not state north: check the direction on the Building worksheet"]
     return drawing, lines
 
 

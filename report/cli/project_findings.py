@@ -53,7 +53,7 @@ def findings_before_runs(
     # Only here the clock is read: a package of the same input is to be the same on any day.
     date, today = sheet.project.project.date, dt.date.today()
     if date > today:
-        text = f"date is {date}, after today, {today}; correct it if that is not intended"
+        text = f"date is {date}, after today, {today}; correct it if this is not intended"
         all_findings.append(note(Place("project", 0, "date"), text))
     return motions, in_order(all_findings)
 
@@ -117,7 +117,7 @@ def _summary(sheet: Sheet, motions: Shaking, all_findings: Iterable[Finding]) ->
     project = sheet.project
     levels = [finding.level for finding in all_findings]
     counts = [numbered(levels.count(level), level) for level in Level if level in levels]
-    errors = f"no errors, {', '.join(counts)}" if counts else "no problems found"
+    errors = f"no errors, {', '.join(counts)}" if counts else "no errors"
     return (
         f"{sheet.path}: {errors}. "
         f"{len(project.arrays)} arrays, {len(project.clearances)} clearances, "

@@ -93,7 +93,7 @@ def faces(entity: Any) -> list[Any] | str:
     if sum(map(len, rings)) > 4 * MAX_POINTS:
         return f"a {kind} of more than {4 * MAX_POINTS} points"
     if not are_numbers(chain.from_iterable(rings)):
-        return f"a {kind} with a value that is no number up to {MAX_COORDINATE:g}"
+        return f"a {kind} with a value that is not a number up to {MAX_COORDINATE:g}"
     return polygons([(float(p[0]), float(p[1])) for p in ring] for ring in rings)
 
 

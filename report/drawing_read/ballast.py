@@ -50,7 +50,7 @@ def read_map(path: Path, unit_m: float) -> Any:
 
     Raises `InputError` with every line that is wrong, or if the file is too large or no such CSV.
     """
-    data = read_file(path, MAX_BYTES, too_large=f"keep the columns {', '.join(COLUMNS)}")
+    data = read_file(path, MAX_BYTES, too_large=f"keep only the columns {', '.join(COLUMNS)}")
     is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
         content = data.decode("utf-16" if is_utf_16 else "utf-8-sig").splitlines()
@@ -60,7 +60,7 @@ def read_map(path: Path, unit_m: float) -> Any:
         if rows and rows[0][1][0].casefold().startswith("sep="):  # as Excel begins one
             del rows[0]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError("not a CSV in UTF-8 or UTF-16; save it as one") from error
+        raise InputError("not a CSV file in UTF-8 or UTF-16; save it as one") from error
     heads = []
     for heading in rows[0][1] if rows else ():
         words = _HEADING.fullmatch(" ".join(heading.split()).casefold())
@@ -69,11 +69,11 @@ def read_map(path: Path, unit_m: float) -> Any:
         unit = "".join(units)
         if name in ("x", "y") and unit and LENGTHS.get(unit_named(unit)) != unit_m:
             text = f"line 1: the heading is '{cut(heading)}'"
-            raise InputError(f"{text}, and --units says another unit; enter that of x and y")
+            raise InputError(f"{text}, but --units states another unit; enter the unit of x and y")
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
         raise InputError(f"line 1: not one heading {', '.join(missing)}; enter x, y and blocks")
     if len(rows) > MAX_ROWS:
-        raise InputError(f"{len(rows):,} lines, more than {MAX_ROWS:,}; add up neighboring blocks")
+        raise InputError(f"{len(rows):,} lines, more than {MAX_ROWS:,}; combine neighboring blocks")
     rows_read, wrong = [], []
     for line, row in rows[1:]:
         cells = [row[k].strip() if k < len(row) else "" for k in map(heads.index, COLUMNS)]

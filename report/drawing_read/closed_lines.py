@@ -15,8 +15,8 @@ from ezdxf import edgeminer
 
 from report.project.model.shapes import Point
 
-OPEN = "an open line that closes no outline"
-BRANCHED = "open lines of which three or more meet at a point"
+OPEN = "an open line that is not part of a closed outline"
+BRANCHED = "three or more open lines that meet at a point"
 
 Line = Sequence[Point]
 # A closed line, and which open ones it consists of.

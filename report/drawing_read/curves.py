@@ -41,8 +41,8 @@ def curve(entity: Any, sagitta: float) -> tuple[list[Point], bool] | str:
     if len(vertices) * (10 if has_fit_points else 1) > MAX_POINTS:
         return f"a {kind} of more than {MAX_POINTS} points"
     if kind == "SPLINE" and entity.dxf.degree > MAX_DEGREE:
-        return f"a {kind} of a degree of more than {MAX_DEGREE}"
-    no_number = f"a {kind} with a value that is no number up to {MAX_COORDINATE:g}"
+        return f"a {kind} of a degree above {MAX_DEGREE}"
+    no_number = f"a {kind} with a value that is not a number up to {MAX_COORDINATE:g}"
     if not are_numbers((*vertices, entity.knots if kind == "SPLINE" else ())):
         return no_number
     is_closed = bool(entity.is_closed) if kind.endswith("POLYLINE") else _is_circle(entity, kind)

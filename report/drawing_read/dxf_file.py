@@ -40,7 +40,7 @@ DAMAGED = "not a DXF drawing, or damaged; open it in CAD and save it again"
 _OTHER_FILES = (
     (rb"AC10", "a DWG drawing; save it as DXF (R12 to R2018)"),
     (rb"AutoCAD Binary DXF", "a binary DXF; save it as DXF in text"),
-    (rb"%PDF", "a PDF; use the DXF that it was plotted from"),
+    (rb"%PDF", "a PDF; use the DXF from which it was plotted"),
     (rb"PK\x03\x04", "a zip; unpack it and use the DXF in it"),
     (rb"\x89PNG|\xff\xd8\xff|II\*\x00|MM\x00\*|GIF8|BM", "a picture; use the drawing as DXF"),
     (rb"ISO-10303-21", "an IFC or STEP model; export its roof plan as DXF"),
@@ -59,7 +59,7 @@ def other_unit(code: int) -> str:
         return ""
     stated, unit = OTHER_UNITS[code]
     is_same = stated == f"US survey {'feet' if unit == 'ft' else 'inches'}"  # within 2 in a million
-    condition = "" if is_same else ", if that is what it is drawn in, or scale it in CAD"
+    condition = "" if is_same else ", if it is drawn in that unit, or scale it in CAD"
     return f"states {stated}; use --units {unit}{condition}"
 
 
@@ -67,7 +67,7 @@ def _read(path: Path) -> bytes:
     """Return a drawing; refuse what is no DXF in text, and what is too large to load."""
     if not path.exists():
         raise InputError(f"no such file; {meant(path) or 'use a DXF drawing'}")
-    data = read_file(path, MAX_BYTES, too_large="save the roof plan alone")
+    data = read_file(path, MAX_BYTES, too_large="save only the roof plan")
     begin = data[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
     for pattern, advice in _OTHER_FILES:
         if re.match(pattern, begin, re.IGNORECASE):
@@ -77,7 +77,7 @@ def _read(path: Path) -> bytes:
     limit(values, MAX_VALUES, "values")
     limit(sum(1 for _ in _ENTITY.finditer(data)), MAX_ENTITIES, "entities")
     # Names are read once for each entity that has them; formats allow lines of 2,049 letters.
-    limit(max(map(len, data.splitlines()), default=0), MAX_LINE, "letters in a line")
+    limit(max(map(len, data.splitlines()), default=0), MAX_LINE, "characters in a line")
     return data
 
 
@@ -85,7 +85,7 @@ def limit(count: int, allowed: int, noun: str) -> None:
     """Refuse more than a drawing may have."""
     if count > allowed:
         raise InputError(
-            f"{count:,} {noun}, more than {allowed:,}; save the layers of the roof plan alone"
+            f"{count:,} {noun}, more than {allowed:,}; save only the layers of the roof plan"
         )
 
 
@@ -113,4 +113,4 @@ def loaded(path: Path) -> tuple[Document, str]:
         raise InputError(DAMAGED)
     count = len(audit.fixes)
     fixes = f", {count} faults repaired" if count > 1 else ", a fault repaired" if count else ""
-    return document, f"a damaged drawing, read as far as it can be{fixes}: compare the plan"
+    return document, f"a damaged drawing, read as far as possible{fixes}: compare the plan"

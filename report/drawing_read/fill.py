@@ -80,9 +80,13 @@ def _refuse(plan: RoofPlan, drawn: RoofDrawing) -> NoReturn:
         if names := ", ".join(drawn.layouts):
             text = f"its closed lines are in the layout {names}, not in model space"
             raise InputError(f"{text}; move them there in CAD")
-        text = "the drawing has no closed lines; draw roof, arrays and objects as such in CAD"
+        text = (
+            "the drawing has no closed lines; draw roof, arrays and objects as closed lines in CAD"
+        )
         raise InputError([text, *unread(plan)])
-    raise InputError(["nothing to fill in: list the layers on the Layers worksheet", *unread(plan)])
+    raise InputError(
+        ["nothing to fill in: enter the types of the layers on the Layers worksheet", *unread(plan)]
+    )
 
 
 def unread(plan: RoofPlan) -> Iterator[str]:
@@ -254,7 +258,7 @@ def _take_out(change: WorkbookChange, name: str) -> list[str]:
             if typed:
                 lost.append(f"{change.position(key, row, columns[0]).address}: {typed}")
             change.put(key, row, dict.fromkeys(change.table(key).columns))
-    return [f"taken out with {name}: {'; '.join(lost)}"] if lost else []
+    return [f"deleted with {name}: {'; '.join(lost)}"] if lost else []
 
 
 def _typed(change: WorkbookChange, key: str, row: int, drawn: set[str]) -> str:

@@ -181,7 +181,7 @@ def _parallel(
     fits = is_right & (short >= SIDES_M[0] - alike) & (long <= SIDES_M[1] + alike)
     if step > COARSEST_M and fits.sum() >= LEAST_ALIKE:
         raise InputError(
-            f"layer {lines[four[0]].layer}: coordinates of turned modules are rounded to"
+            f"layer {lines[four[0]].layer}: coordinates of rotated modules are rounded to"
             f" {1e3 * step:.4g} mm, which does not tell their arrays; export more decimals"
         )
     sizes = np.full((len(four), 2), np.nan)
@@ -246,8 +246,8 @@ def _once(boxes: Any, layer: str) -> Any:
     middles = 0.5 * (boxes[:, :2] + boxes[:, 2:])
     densest = max(Counter(map(tuple, np.floor(middles).tolist())).values())
     if densest > _MOST_PER_M2:  # their pairs would be without number
-        text = f"layer {layer}: {densest} rectangles of the size of modules on one square meter"
-        raise InputError(f"{text}, more than {_MOST_PER_M2}; save one line for each module")
+        text = f"layer {layer}: {densest} module-size rectangles on one square meter"
+        raise InputError(f"{text}, more than {_MOST_PER_M2}; save one outline for each module")
     tree = shapely.STRtree(shapely.box(*boxes.T))
     inner, outer = tree.query(shapely.points(middles), predicate="intersects")
     areas = np.round(np.prod(boxes[:, 2:] - boxes[:, :2], axis=1), 2)

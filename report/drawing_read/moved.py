@@ -65,11 +65,11 @@ class Move:
         return round(way_deg, 6) % 360.0
 
     def words(self, unit: Unit) -> str:
-        """Return what has moved, such as `turned counterclockwise by 90°, moved by x 2, y 0 ft`."""
+        """Return what has moved: `rotated counterclockwise by 90°, moved by x 2, y 0 ft`."""
         x, y = (f"{m / unit.si:.{unit.decimals}f}" for m in (self.shift.real, self.shift.imag))
         parts = {
             "mirrored": self.is_mirrored,
-            f"turned counterclockwise by {self.way_deg(0.0):g}°": self.way_deg(0.0),
+            f"rotated counterclockwise by {self.way_deg(0.0):g}°": self.way_deg(0.0),
             f"{self.factor:.4g} times as large": self.factor != 1.0,
             f"moved by x {x}, y {y} {unit.symbol}": abs(self.shift) >= SAME_M,
         }

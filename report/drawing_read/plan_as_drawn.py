@@ -53,7 +53,7 @@ class RoofPlan:
         elif not self.move.is_none:
             check = "" if self.move.is_straight else "; check the direction of north"
             text = f"the plan as a whole is {self.move.words(self.unit)} since the workbook{check}"
-            yield f"{text}; what was typed and is not drawn is moved with it"
+            yield f"{text}; typed items that are not drawn are moved with it"
         drawn = self.shapes
         moves = []
         # At first, when nothing was in plan, there is no table.
@@ -61,8 +61,8 @@ class RoofPlan:
             was, shape = self.before.get(name), drawn.get(name)
             if was and shape and solid(was).hausdorff_distance(solid(shape)) < STILL_M:
                 continue
-            stays = "stays as typed" if name in self.typed else "stays without --replace"
-            gone = f"not in the drawing; {'taken out' if replace and name in self.gone else stays}"
+            stays = "stays as typed" if name in self.typed else "kept without --replace"
+            gone = f"not in the drawing; {'deleted' if replace and name in self.gone else stays}"
             from_, new_place = (placed(place, self.unit) if place else "" for place in (was, shape))
             moves.append((name, from_ or "new", new_place or gone))
         yield from aligned([("name", "from", "to"), *moves]) if moves else ()
@@ -70,7 +70,7 @@ class RoofPlan:
             row = self.rows.get(place.name, {})
             if not place.modules and (count := row.get("modules")):
                 is_drawn = row.get("place_from") == DRAWN_MODULES
-                fate = "taken out, as they are not drawn" if is_drawn else "stay as typed"
+                fate = "deleted, as they are not drawn" if is_drawn else "stay as typed"
                 yield f"{place.name}: {count} modules {fate}"
 
 

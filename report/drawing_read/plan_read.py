@@ -98,7 +98,9 @@ def plan_of(
     for line in drawing.lines:
         kind = kinds.get(line.layer.casefold())
         if kind is None:
-            unread.append(_unread(line, "a closed line on a layer that is not in Layers"))
+            unread.append(
+                _unread(line, "a closed line on a layer that is not on the Layers worksheet")
+            )
         elif kind is not passed:
             take(replace(line, kind=kind), unit_m)
     outlines, arrays, overlapped = joined(outlines, gap_m, drawing.turned_deg)
@@ -157,7 +159,7 @@ def check_size(plan: RoofPlan, stated: str, us_first: bool = True) -> None:
         if unit != stated
         and all(_is_usual(place, unit_m / LENGTHS[stated], SIDES_M[0] ** 2) for place in places)
     ]  # fmt: skip
-    raise InputError(f"{listed(sizes)}, a size that few have; {unit_asked(would_do, stated)}")
+    raise InputError(f"{listed(sizes)}, an unusual size; {unit_asked(would_do, stated)}")
 
 
 def unit_asked(would_do: Sequence[str], stated: str) -> str:
@@ -300,14 +302,16 @@ def _height_m(
         lines += (text.text, *text.others)
     height, unclear = first_height((*line.heights, *lines), unit_m)
     if unclear:
-        unread.append(_unread(line, "a height that is not understood", f"'{unclear[:MAX_NAME]}'"))
+        unread.append(
+            _unread(line, "a height that could not be interpreted", f"'{unclear[:MAX_NAME]}'")
+        )
     if height is None:
         return math.nan
     notes.append(f"{height.word} {pair(height.value_m, Quantity.SIZE, us_first)}")
     if not height.has_unit:
-        notes.append("no unit given, so in that of the drawing")
+        notes.append("no unit stated; read in the unit of the drawing")
     if height.word not in ABOVE_ROOF:
-        notes.append("taken as above the roof")
+        notes.append("assumed to be above the roof")
     return height.value_m
 
 
@@ -348,4 +352,4 @@ def _edges(roof: Shape, objects: Sequence[DrawnOutline]) -> Iterator[DrawnOutlin
         dx, dy = EDGE_STRIP_M * (y1 - y0) / long, EDGE_STRIP_M * (x0 - x1) / long
         strip = Polygon(ring([(x0, y0), (x1, y1), (x1 + dx, y1 + dy), (x0 + dx, y0 + dy)]))
         yield DrawnOutline(name=name, kind=kind, shape=boxed(strip), handle="", layer="",
-                           unnamed=edge.name, note="taken as without parapet")  # fmt: skip
+                           unnamed=edge.name, note="assumed to have no parapet")  # fmt: skip

@@ -127,7 +127,7 @@ def _check_expanded(count: int) -> None:
     if count > MAX_ENTITIES:
         raise InputError(
             f"its blocks expand to more than {MAX_ENTITIES:,} entities; explode those of"
-            " the roof plan and save it alone"
+            " the roof plan and save only these"
         )
 
 
@@ -308,9 +308,9 @@ class _Reader:
         depth = outer.depth + 1
         block_of, quoted_name = insert.block(), f"'{printable(insert.dxf.name)}'"
         if block_of is None:
-            return f"a block that the drawing does not have: {quoted_name}"
+            return f"a missing block: {quoted_name}"
         if block_of.block.is_xref or block_of.block.is_xref_overlay:
-            return f"an external reference, to be bound in CAD: {quoted_name}"
+            return f"an external reference (bind it in CAD): {quoted_name}"
         if insert.dxf.get("zscale", 1.0) == 0.0:
             insert.dxf.zscale = 1.0  # a plan has no use of it
         if depth > MAX_DEPTH:
@@ -352,7 +352,7 @@ class _Reader:
     def _take_text(self, entity: Any, layer: str, kind: str) -> str:
         """Add a text that says something at a place; none is missed that does not."""
         self.letters += len(entity.text if kind == "MTEXT" else entity.dxf.text)
-        limit(self.letters, MAX_LETTERS, "letters of texts")
+        limit(self.letters, MAX_LETTERS, "characters of text")
         placed = None if kind == "MTEXT" else entity.get_placement()[1]
         x, y, _ = placed or entity.dxf.insert
         lines = lines_of_text(entity)

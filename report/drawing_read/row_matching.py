@@ -91,7 +91,7 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
             candidates = _either([drawn[k] for k in unmatched], unmatched_rows, unit)
             unclear.append(f"{candidates}, or new")
     if unclear:
-        raise InputError([f"{text}: write its name inside of it as a text" for text in unclear])
+        raise InputError([f"{text}: write its name inside it as a text" for text in unclear])
     # Read after all groups: a row may still be found by its size.
     lost = [name for name in before if name not in by_row.values()]
     return replace(

@@ -1,6 +1,6 @@
 """Histories of the displacement relative to the roof, one panel per motion.
 
-Paths of an array in plan, one panel per motion, all at one scale.
+Paths of an array in plan, one panel per motion, all at the same scale.
 """
 
 from __future__ import annotations

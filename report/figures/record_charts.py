@@ -29,7 +29,7 @@ _COLUMNS = ("Record", "Transverse", "Vertical")
 
 
 def accelerations(motions: Sequence[Motion]) -> str:
-    """Return the scaled accelerations of the motions over time, all at one scale."""
+    """Return the scaled accelerations of the motions over time, all at the same scale."""
     # All panels share one pair of axes, with offsets: one for each would take ten times as long.
     scaled = [[m.scaled(a) / G_MPS2 for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
     peaks = [float(np.abs(a_g).max()) for a_g in chain.from_iterable(scaled) if a_g.size]

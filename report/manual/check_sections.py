@@ -58,7 +58,7 @@ def summary(verification: Verification) -> Section:
 def _used(rows: Sequence[Verified]) -> str:
     # A tolerance of 0 is met or not: there is no share of it.
     shares = [row.error / row.tolerance for row in rows if row.tolerance > 0.0]
-    return f"{100.0 * max(shares):.2g} %" if shares else "—"
+    return f"{100.0 * max(shares):.2g}%" if shares else "—"
 
 
 _CHECK_COLUMNS = (

@@ -22,9 +22,9 @@ _CHANGE = (
     (words("Comparison", 4.0), lambda change: change.name),
     (text("Runs"), lambda change: change.ratios.size),
     (plain("Least"), lambda change: change.at(0.0)),
-    (plain("10 %"), lambda change: change.at(10.0)),
+    (plain("10%"), lambda change: change.at(10.0)),
     (plain("Median"), lambda change: change.at(50.0)),
-    (plain("90 %"), lambda change: change.at(90.0)),
+    (plain("90%"), lambda change: change.at(90.0)),
     (plain("Largest"), lambda change: change.at(100.0)),
     (plain("Above 1", 0, "%"), lambda change: 100.0 * change.share_above_one),
     (text("Excluded", share=1.1), lambda change: change.n_small),
@@ -117,7 +117,7 @@ def _bands(roof: RoofComparison) -> Table:
 
 
 def _band(prediction: RoofPrediction, k: int) -> str:
-    return f"{prediction.band_ratios[k]:.2f} ({100.0 * prediction.band_scatters[k]:.0f} %)"
+    return f"{prediction.band_ratios[k]:.2f} ({100.0 * prediction.band_scatters[k]:.0f}%)"
 
 
 def _peaks(roof: RoofComparison) -> Table:

@@ -74,7 +74,7 @@ def _errors(axes: Axes, study: pd.DataFrame) -> None:
     )
     axes.plot(
         [64], [PAPER_P64_PERCENT], linestyle="", marker="*", markersize=9, color=GRAY,
-        label=f"paper, record of the paper: {PAPER_P64_PERCENT} %",
+        label=f"paper, record of the paper: {PAPER_P64_PERCENT}%",
     )  # fmt: skip
     axes.set_yscale("log")
     low, high = axes.get_ylim()

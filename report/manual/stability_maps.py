@@ -38,10 +38,10 @@ from solver.verification.verification_motions import strongest
 # Maps per figure, so that it fits on a page.
 MOST = 4
 _BANDS = (
-    (0.0, 0.1, "#ffffff", "less than 0.1 %"),
-    (0.1, 1.0, "#dfe6ee", "0.1 to 1 %"),
-    (1.0, 10.0, "#a9bccf", "1 to 10 %"),
-    (10.0, math.inf, "#5f7890", "more than 10 %"),
+    (0.0, 0.1, "#ffffff", "less than 0.1%"),
+    (0.1, 1.0, "#dfe6ee", "0.1 to 1%"),
+    (1.0, 10.0, "#a9bccf", "1 to 10%"),
+    (10.0, math.inf, "#5f7890", "more than 10%"),
 )
 _LIMIT: dict[str, Any] = {"color": INK, "linewidth": 1.6, "linestyle": (0, (5, 1.4, 1, 1.4))}
 _FAILED: dict[str, Any] = {
@@ -162,7 +162,7 @@ def _spectra(axes: Axes, roof: RoofComparison) -> None:
     axes.set_yscale("log")
     periods(axes, roof.periods_s)
     ticks(axes.yaxis, _LEVELS_G)
-    labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", "Response spectra, 5 % damping")
+    labeled(axes, "Period T [s]", "Pseudo-acceleration [g]", "Response spectra, 5% damping")
     axes.legend(loc="lower left", handlelength=3.2)
 
 

@@ -202,7 +202,7 @@ def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
     for field, record in records.items():
         if has_gravity(record.a_mps2):
             mean_g = float(record.a_mps2.mean()) / G_MPS2
-            text = f"{LABELS[field]} record has a mean of {mean_g:.3g} g: gravity is in it"
+            text = f"{LABELS[field]} record has a mean of {mean_g:.3g} g: it includes gravity"
             remedy = "use it without, or remove the mean by the column Baseline"
             yield Finding.error(Place("motions", index, field), text, remedy)
     if not any(records[field].a_mps2.any() for field in HORIZONTAL if field in records):
@@ -270,7 +270,7 @@ def _file(row: MotionInput, field: str, component: Component, trimmed: int) -> R
     a = component.record.a_mps2
     # A cut record may have lost the hold that its file states.
     is_whole = row.from_s is None and row.to_s is None and trimmed == 0
-    last = f"last {trimmed} of {len(a)} samples trimmed, to the length of the shortest component"
+    last = f"last {trimmed} of {len(a)} samples trimmed to the length of the shortest component"
     far_above, others_mps2 = spikes(a)
     return RecordFile(
         motion_id=row.id,

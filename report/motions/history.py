@@ -34,7 +34,7 @@ OWN = "project-specific"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetSpectrum:
-    """A target spectrum, 5 % damping."""
+    """A target spectrum, 5% damping."""
 
     name: str  # empty if there is no target; the ordinates are then NaN
     # Spectral acceleration [g] at frequencies [Hz]; a target given by points is constant beyond

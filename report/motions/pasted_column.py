@@ -90,7 +90,7 @@ def _check_units(book: OpenBook, heading: CellPosition, units: str) -> None:
     parsed = _parsed_heading(book, heading)
     if parsed.kind in (Kind.TIME, Kind.OTHER) or is_spectral(parsed):
         raise InputError(
-            f"{heading.address} is '{parsed.text}', which is no acceleration by time; enter the"
+            f"{heading.address} is '{parsed.text}', which is not an acceleration history; enter the"
             " column of one"
         )
     if parsed.kind is Kind.ACCELERATION and not math.isclose(
@@ -177,6 +177,6 @@ def _numbers(cells: list[Found], unit: str) -> list[float]:
 
 def _number(cell: Found, unit: str) -> float:
     if cell.is_blank:
-        raise CellError("is blank, beside or above values", "fill it in, or delete its row")
+        raise CellError("is blank, next to or above values", "fill it in, or delete its row")
     check_saved(cell)
     return number(cell, unit=unit)

@@ -42,10 +42,10 @@ class Shaking:
 
 
 _TOO_MUCH = (
-    f"the records to here have more than {MAX_TOGETHER / 1e6:.0f} MB together",
+    f"the records up to this row exceed {MAX_TOGETHER / 1e6:.0f} MB in total",
     "use fewer motions, or convert the records (roofslip motion convert --help)",
 )
-_NOT_READ = ("the records from here on are not read", "correct those before it first")
+_NOT_READ = ("the records from here on were not read", "first correct the rows above")
 
 
 def prepare(sheet: Sheet) -> Shaking:

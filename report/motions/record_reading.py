@@ -118,7 +118,7 @@ def find_heading(book: OpenBook, name: str) -> CellPosition | None:
     # A file may have an exclamation mark in its name.
     if (book.path.parent / name.partition(BAR)[0].strip().replace("\\", "/")).is_file():
         return None
-    raise InputError(f"'{name}' names no worksheet of this workbook; enter Sheet!Header, or a file")
+    raise InputError(f"'{name}' is not a worksheet of this workbook; enter Sheet!Header, or a file")
 
 
 def _read_column(

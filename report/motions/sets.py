@@ -128,7 +128,7 @@ def sets_of(
         if not _HIDDEN.search(f"/{path.relative_to(folder).as_posix()}") and path.is_file()
     )
     if len(paths) > MOST_FILES:
-        raise InputError(f"has {len(paths)} files, more than {MOST_FILES}; name a folder within it")
+        raise InputError(f"has {len(paths)} files, more than {MOST_FILES}; use a subfolder")
     unclear: list[Left] = []
     groups: dict[tuple[str, ...], list[Candidate]] = {}
     for path in paths:
@@ -164,8 +164,8 @@ def sets_of(
         if times[name] == 1 and len(name) <= MOST_NAME:
             sets[name] = group
         else:
-            remedy = f"use a name of at most {MOST_NAME} characters that no other set has"
-            unclear.append((_listed(group), f"their name is {name}; {remedy}"))
+            remedy = f"use a unique name of at most {MOST_NAME} characters"
+            unclear.append((_listed(group), f"several sets have the name {name}; {remedy}"))
     return sets, unclear
 
 
@@ -195,7 +195,7 @@ def _corrected(clear: Sequence[_Clear], unclear: list[Left]) -> Iterator[_Clear]
     corrected = {longer for longer, volume in volumes if volume and volume[1] == "2"}
     for item, (longer, volume) in zip(clear, volumes, strict=True):
         if volume and volume[1] == "1" and longer in corrected:
-            unclear.append((_listed(item[2]), "uncorrected; the corrected records are taken"))
+            unclear.append((_listed(item[2]), "uncorrected; the corrected records are used"))
         else:
             yield item
 
@@ -211,7 +211,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
     level = [channel for channel in group if channel.is_horizontal]
     if (len(level), len(group)) not in ((2, 3), (2, 2 if without_vertical else 3)):
         counts = f"{len(level)} horizontal and {len(group) - len(level)} vertical of one motion"
-        alone = "; --without-vertical takes the two" if len(level) == len(group) == 2 else ""
+        alone = "; --without-vertical uses the two" if len(level) == len(group) == 2 else ""
         yield f"{counts}; a set has 2 and 1{alone}"
     # With the sign wrong, uplift and contact would change places.
     elif group[-1].family == _DOWN:
@@ -221,7 +221,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
         )
     # By 90 or 270 degrees: each component may be positive either way.
     elif level[0].family != level[1].family or (level[1].degrees - level[0].degrees) % 180 != 90:
-        yield "the horizontal components are not perpendicular by their names"
+        yield "the names of the horizontal components are not perpendicular"
     steps, lengths = [channel.dt_s for channel in group], [channel.npts for channel in group]
     # Steps of headings differ by the rounding of a division alone.
     if max(steps) - min(steps) > 1e-9 * max(steps):
@@ -247,11 +247,13 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
         component = of_heading or of_name
         if component is None:
             raise InputError(
-                f"neither its heading ({channel_name or 'none'}) nor its name has a component"
+                f"neither its heading ({channel_name or 'none'}) nor its name states a component"
             )
         family, degrees, remaining = component
         if of_heading and of_name and _differ(of_heading, of_name):
-            raise InputError(f"its heading ({channel_name}) and its name have different components")
+            raise InputError(
+                f"its heading ({channel_name}) and its name state different components"
+            )
         if not of_name:
             stem = _without(stem, family, degrees)
         channels.append(

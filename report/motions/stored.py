@@ -36,10 +36,12 @@ def store(files: Sequence[File], folder: Path) -> Path:
     the folder may then hold a part of the files.
     """
     if not files:
-        raise InputError("no file was sent; drop the workbook together with its records")
+        raise InputError("no file was uploaded; drop the workbook together with its records")
     zips = [item for item in files if item[0].lower().endswith(".zip")]
     if zips and len(files) > 1:
-        raise InputError("a zip was sent with other files; drop the zip alone, or the files alone")
+        raise InputError(
+            "a zip was uploaded with other files; drop only the zip, or only the files"
+        )
     room = _Room(folder)
     if zips:
         _unpack(zips[0][1], room)
@@ -92,7 +94,9 @@ class _Room:
                         raise InputError(f"more than {MOST_STORED // MB} MB; drop fewer records")
                     out.write(chunk)
         except (FileExistsError, NotADirectoryError, IsADirectoryError) as error:
-            raise InputError(f"{name}: a file and a folder of one name; rename one") from error
+            raise InputError(
+                f"{name}: a file and a folder have the same name; rename one"
+            ) from error
         self.paths.append(target)
 
     def _check_spelling(self, path: PurePosixPath, *, is_written: bool) -> None:
@@ -102,12 +106,14 @@ class _Room:
             key = unicodedata.normalize("NFC", str(part)).casefold()
             first = self._spelled.setdefault(key, str(part))
             if first != str(part) or (part == path and is_written):
-                raise InputError(f"{path}: the same name as {first} but for capitals; rename one")
+                raise InputError(
+                    f"{path}: the same name as {first} except for capitals; rename one"
+                )
 
 
 def _unpack(content: IO[bytes], room: _Room, below: str = "") -> None:
     """Write the files of a zip; refuse a link, and what is encrypted or damaged."""
-    archive = zip_of(content, "the zip is damaged; make it again")
+    archive = zip_of(content, "the zip is damaged or not a zip; create it again")
     # Some programs of Windows write backslashes.
     named = [(info.filename.replace("\\", "/"), info) for info in archive.infolist()]
     members = [(path, info) for path, info in named if not path.endswith("/")]
@@ -115,9 +121,9 @@ def _unpack(content: IO[bytes], room: _Room, below: str = "") -> None:
         # The upper half is the mode of Unix; 0 where a zip was made elsewhere.
         kind, name = stat.S_IFMT(info.external_attr >> 16), printable(path)
         if kind not in (0, stat.S_IFREG):
-            raise InputError(f"{name}: a link, not a file; put the file into the zip")
+            raise InputError(f"{name}: a link instead of a file; put the file itself into the zip")
         if info.flag_bits & _ENCRYPTED:
-            raise InputError("the zip has a password; make it without one")
+            raise InputError("the zip has a password; create it without one")
     for path, info in members:
         try:
             with archive.open(info) as member:
@@ -126,7 +132,7 @@ def _unpack(content: IO[bytes], room: _Room, below: str = "") -> None:
             # What the system refuses has a number, as on a full disk.
             if isinstance(error, InputError) or getattr(error, "errno", None):
                 raise
-            raise InputError(f"{printable(path)}: damaged in the zip; make it again") from error
+            raise InputError(f"{printable(path)}: damaged in the zip; create it again") from error
 
 
 def _workbook(paths: Sequence[Path]) -> Path:
@@ -143,6 +149,8 @@ def _workbook(paths: Sequence[Path]) -> Path:
     if not top:
         if drawings := [path.name for path in paths if path.suffix.lower() == ".dxf"]:
             raise InputError(f"{drawings[0]} came without a workbook; drop both together")
-        raise InputError("no workbook (.xlsx) was sent; drop it together with its records")
+        raise InputError("no workbook (.xlsx) was uploaded; drop it together with its records")
     names = ", ".join(sorted(path.name for path in top)[:5])
-    raise InputError(f"{len(top)} workbooks were sent ({names}); name the one to use input.xlsx")
+    raise InputError(
+        f"{len(top)} workbooks were uploaded ({names}); rename the one to use to input.xlsx"
+    )

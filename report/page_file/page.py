@@ -60,8 +60,8 @@ def page(package: str, assessment: Assessment, fingerprint: str, results: bytes)
     if len(made) <= MOST_BYTES:
         return made
     warnings.warn(
-        f"calc-package.html is without recomputation: with it, it would have {len(made) / 1e6:.1f} "
-        f"MB, more than {MOST_BYTES / 1e6:.1f} MB",
+        "calc-package.html does not recompute the runs: with their motions, it would be"
+        f" {len(made) / 1e6:.1f} MB, more than {MOST_BYTES / 1e6:.1f} MB",
         stacklevel=2,
     )
     return _page(package, assessment, fingerprint, "")

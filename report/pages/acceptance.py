@@ -29,8 +29,8 @@ def acceptance_table(package: PackageData) -> Table:
     columns = by_place(
         words("Limit", 4.4),
         text("Found", share=1.35),
-        text("Limit value", share=1.35),
-        words("Worst", 1.1),
+        text("Required", share=1.35),
+        words("Governing", 1.1),
         words("Verdict", 0.75),
     )
     rows = [

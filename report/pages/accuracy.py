@@ -26,7 +26,7 @@ from report.text.error_text import below_mm
 from report.text.letter_case import lowered
 from report.text.names import named, ranged
 from report.text.unit_format import NO_VALUE, UnitFormat
-from report.text.units import NO_BREAK, number
+from report.text.units import number
 from solver.errors import DefectError
 from solver.model import Status
 from solver.rules.provisions import Neighbor
@@ -39,7 +39,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     if uncertainty is None:
         raise DefectError("a package without motions has no page on margins")
     fmt, array = package.fmt, package.assessment.governing
-    run, percent = array.worst.governing, f"{100.0 * SHIFT:.0f} %"
+    run, percent = array.worst.governing, f"{100.0 * SHIFT:.0f}%"
     factors = package.data.options.smaller_factors
     # Less friction can leave runs that slide at the end of the record: their peaks are no peaks.
     n_more = _unfinished(accuracy.at_reduced_friction) - _unfinished(accuracy.entered)
@@ -121,7 +121,7 @@ def _smallest_words(margins: Sequence[Margin]) -> str:
     of = f"μ of {smallest.array.id}"
     if percent_less:
         remains = (
-            f"It remains satisfied with {of} reduced by {number(percent_less, 1)}{NO_BREAK}%, from "
+            f"It remains satisfied with {of} reduced by {number(percent_less, 1)}%, from "
             f"{mu_words(law)} to {_least(smallest)}."
         )
     else:
@@ -249,7 +249,7 @@ def _change(value: float, base: float) -> str:
     if math.isnan(value) or not base > 0.0:
         return NO_VALUE if math.isnan(value) or math.isnan(base) else "—"
     share = 100.0 * (value / base - 1.0)
-    return f"{'+' if share > 0.05 else ''}{number(share, 1)} %"
+    return f"{'+' if share > 0.05 else ''}{number(share, 1)}%"
 
 
 def _unfinished(assessment: Assessment) -> int:

@@ -54,7 +54,7 @@ def building_part(
         else "",
         "period": _period(package),
         "height": fmt.both(height_m, Quantity.PLAN),
-        "omitted_percent": f"{number(building.left_out_percent, 1)}{NO_BREAK}%",
+        "omitted_percent": f"{number(building.left_out_percent, 1)}%",
         "modes": _modes(package, components),
         "peaks": _peaks(package, components),
         "range": _range([value.mean_m for _, value in variations]),

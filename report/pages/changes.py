@@ -8,7 +8,7 @@ from report.assessment.revision_changes import ChangeKind, Changes
 from report.document.tables import headed
 from report.pages.parts import PackageData
 
-_COLUMNS = ("Kind", 1.2), ("Quantity", 2.6), ("Cell", 1.1), ("Before", 2.2), ("Now", 2.2)
+_COLUMNS = ("Type", 1.2), ("Quantity", 2.6), ("Cell", 1.1), ("Before", 2.2), ("Now", 2.2)
 
 
 def page(package: PackageData) -> Mapping[str, object]:

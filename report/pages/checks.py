@@ -125,7 +125,7 @@ def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
         text = f"{n_failed} of {total} checks {are} not satisfied: {governing_words(done)}."
         return text + (f" {capitalized(numbered(n_open, 'open condition'))}." if n_open else "")
     if n_open:
-        opened = f"{capitalized(counted(n_open, 'open condition'))} {conditions}"
+        opened = f"The {counted(n_open, 'open condition')} {conditions}"
         text = f"No check is NG. {opened} must be closed before the package is complete."
     elif any(check.is_excepted for check in done.checks):
         text = f"All {total} checks are satisfied, or exceeded where the rule set permits it."
@@ -186,7 +186,7 @@ def all_checks(done: Assessment) -> Table:
 APART = ("clearance", MOTIONS_ID)
 """Kinds with a table of their own."""
 _GOVERNING_HEADS = headed(
-    ("Check", 2.25), ("Of", 1.2), ("Found", 1.45), ("Required", 1.45), ("Ratio", 0.5, "right"),
+    ("Check", 2.25), ("Item", 1.2), ("Found", 1.45), ("Required", 1.45), ("Ratio", 0.5, "right"),
     ("Code section", 1.6), ("Verdict", 0.75, "center"), ("Sheet", 0.45, "right"),
     kind="compact",
 )  # fmt: skip
@@ -195,7 +195,7 @@ _CONDITION_HEADS = headed(
     ("Who acts", 0.95), ("Sheet", 0.45, "right"), kind="compact",
 )  # fmt: skip
 _ALL_HEADS = headed(
-    ("Of", 0.9), ("Check", 2.6), ("Found", 2.5), ("Required", 2.35), ("Ratio", 0.5, "right"),
+    ("Item", 0.9), ("Check", 2.6), ("Found", 2.5), ("Required", 2.35), ("Ratio", 0.5, "right"),
     ("Code section", 1.65), ("Verdict", 0.85, "center"), kind="compact",
 )  # fmt: skip
 

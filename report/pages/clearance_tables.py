@@ -63,8 +63,8 @@ def field_schedule(package: PackageData) -> Table:
         (text("No.", share=0.42), lambda gap: gap.number),
         (words("From", 0.9), lambda gap: gap.check.clearance.array),
         (words("To", 1.4), lambda gap: gap.check.clearance.object),
-        (words("Kind", 3.4), lambda gap: _kind(gap.check)),
-        (required("At least", 0.8), lambda gap: gap.check.required_m,
+        (words("Type", 3.4), lambda gap: _kind(gap.check)),
+        (required("Minimum", 0.8), lambda gap: gap.check.required_m,
          lambda gap: package.marks.required(gap.check), lambda gap: gap.check.shows[1]),
         (words("Measured, date, by", 1.7), lambda _: ""),
     )  # fmt: skip
@@ -93,9 +93,9 @@ def neighbor_table(package: PackageData, pairs: Sequence[PlanNeighbor]) -> Table
     """Return pairs of the plan with their clearances."""
     columns: Sequence[Column] = (
         (words("Array", 0.7), lambda pair: pair.array),
-        (words("Neighbor", 1.3), lambda pair: pair.other),
-        (words("Kind", 1.8), lambda pair: pair.what),
-        (provided("In plan", 0.8), lambda pair: pair.gap_m),
+        (words("Adjacent item", 1.3), lambda pair: pair.other),
+        (words("Type", 1.8), lambda pair: pair.what),
+        (provided("On plan", 0.8), lambda pair: pair.gap_m),
         (required("Twice displ.", 0.8), lambda pair: pair.reach_m),
         (words("Clearance", 0.9), lambda pair: pair.numbers),
         (words("Remark", 2.8), lambda pair: pair.cover),

@@ -92,7 +92,7 @@ def _pressures(package: PackageData) -> str:
     if not (tested_pa or any(by_pressure)):
         return ""
     supports = (f"{named(ids, 'array')} {words(pa)}" for pa, ids in by_pressure.items())
-    return f"of the tests {words(tested_pa)}; of the supports {', '.join(supports)}"
+    return f"{words(tested_pa)} in the tests; supports of {', '.join(supports)}"
 
 
 def drawings(package: PackageData) -> Sequence[str]:
@@ -219,7 +219,7 @@ def _compared(package: PackageData, series: Sequence[Series]) -> Iterator[str]:
         if above:
             differs = f"{number(abs(above), 3)} {'above' if above > 0.0 else 'below'}"
         if above > 0.0:
-            rounding = ", within the rounding of two decimals"
+            rounding = ", within rounding to two decimals"
         return (
             f"{mu} {number(used, 3)}, {differs} the tested mean {number(mean, 3)} "
             f"({tests.surface}){rounding}; {basis_words(package.data, array)}."

@@ -143,7 +143,7 @@ def _arrays(package: PackageData) -> Table:
         (words("Array", 0.9), lambda array: array.id),
         (plain("Slope", 2, "deg", 0.7), lambda array: math.degrees(array.slope_rad)),
         (plain("Slope", 1, "%", 0.6), lambda array: 100.0 * math.tan(array.slope_rad)),
-        (plain("Down", 0, "deg", 0.7), lambda array: array.downslope_deg),
+        (plain("Downslope", 0, "deg", 0.9), lambda array: array.downslope_deg),
         (text("μ", share=package.mu_share), lambda array: mu_words(array.friction)),
         (weight("Weight", 0.95), lambda array: array.weight_n),
         (ColumnHead(head="Weight per area", quantity=Quantity.PRESSURE),

@@ -33,7 +33,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     ]
     columns = ("Cell", 1.2), ("Warning", 5.6), ("Reason given in the workbook", 3.2)
     return {
-        "checks_caption": f"All checks but clearances ({package.part('plan')}){motions}",
+        "checks_caption": f"All checks except clearances ({package.part('plan')}){motions}",
         "checks": all_checks(done),
         "remedies": list(remedy_lines(done, evidence.remedies)),
         "warnings": headed(*columns, rows=warnings) if warnings else None,
@@ -52,6 +52,6 @@ def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:
     if found.own and failed > MOST:
         yield f"Searched for the {MOST} with the largest ratio of {failed} that are NG."
     if found.own and not found.together:
-        yield "No combination of these changes is enough."
+        yield "No combination of these changes is sufficient."
     if assessment.has_motions and (lacks := without_analysis(assessment)):
         yield f"{capitalized(lacks)}"

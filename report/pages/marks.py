@@ -21,7 +21,7 @@ from report.assessment.design.routes import SEAOC
 from solver.rules.provisions import PrescriptiveBasis
 
 UNVERIFIED = (
-    "Numbers marked † have not been compared with the text of the adopted document and shall be "
+    "Values marked † have not been compared with the text of the adopted document and shall be "
     "verified against it"
 )
 

@@ -51,7 +51,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     if math.isnan(array.design_m):
         has = "which has no design displacement"
     elif n_largest > 1:
-        has = "one of those with the largest design displacement"
+        has = "one of the arrays with the largest design displacement"
     else:
         has = "which has the largest design displacement"
     return {

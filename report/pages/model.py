@@ -95,7 +95,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "n_vertical": sum(motion.has_vertical for motion in motions),
         "models": "; ".join(f"{model.value}: {model.title}" for model in Model),
         "tolerance": f"{millimeters}{NO_BREAK}mm ({number(inches, 2)}{NO_BREAK}in) or "
-        f"{number(100.0 * DEFAULT.matters_share, 1)}{NO_BREAK}%",
+        f"{number(100.0 * DEFAULT.matters_share, 1)}%",
         "orientations": _orientations(motions),
         "models_used": merged(_table(package)),
         "neglected": merged(_neglected_table(package)),
@@ -147,7 +147,7 @@ def _unchecked(motions: Sequence[Motion]) -> str:
         others = " for the others"
     return (
         f"{have} a vertical component; uplift is not checked{others}, and tipping is checked with "
-        "horizontal shaking alone."
+        "horizontal shaking only."
     )
 
 
@@ -189,7 +189,7 @@ def _stability_table(package: PackageData) -> Table:
     none = "none" if has_vertical else "not checked"
     columns = (
         (words("Array", 0.8), lambda item: item.id),
-        (plain("Min. N", unit="m g"), lambda item: item.uplift.n_min_g),
+        (plain("Min. N/W"), lambda item: item.uplift.n_min_g),
         (text("Uplift time", "s", 1.1),
          lambda item: number(item.uplift.duration_s, 3) if item.uplift.lifts else none),
         (text("Demand", "V/N"), lambda item: _limited(item.tipping.demand)),
@@ -289,7 +289,7 @@ def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
     if neglected:
         return
     if all(solution.model is Model.NO_SLIP for solution in solutions):
-        yield array.id, "None: no slip", "—", "—", "exact"
+        yield array.id, "none; no slip", "—", "—", "exact"
     elif array.array.friction.is_constant:
         basis = "one coefficient entered"
         yield array.id, _NEGLECTED[Model.SPEED_FRICTION], *_NOT_KNOWN, basis

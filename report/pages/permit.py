@@ -42,7 +42,7 @@ def letter(package: PackageData) -> Mapping[str, object]:
     factors = {key: number(done.rules[key], 2) for key in SEPARATION_KEYS.values()}
     return {
         **cover.page(package),
-        "kind": "letter for a permit",
+        "kind": "permit letter",
         "verdict": stamp(done.verdict, done.verdict.value),
         "verdict_sentence": verdict_sentence(done, "below"),
         "site": data.site,

@@ -97,7 +97,7 @@ def page(package: PackageData) -> Mapping[str, object]:
         "has_outline": bool(data.roof.placed),
         **_places(package, fmt),
         **_distances(package, gaps),
-        "parapets": merged(_parapets(package), "Beside"),
+        "parapets": merged(_parapets(package), "Arrays"),
         "parapet_height": package.rule_length("parapet_height_in"),
         "parapet_over_cg": over_cg,
         **_neighbors(package, apart),
@@ -215,7 +215,7 @@ def _parapets(package: PackageData) -> Table:
     arrays = {array.id: array.cg_height_m for array in package.data.arrays}
     columns = (
         (words("Parapet"), lambda row: row[0].object),
-        (words("Beside"), lambda row: row[0].array),
+        (words("Arrays"), lambda row: row[0].array),
         (length("Top above the roof"), lambda row: row[1]),
         (length("Center of gravity"), lambda row: row[2]),
         (provided("Top above c.g."), lambda row: row[1] - row[2]),

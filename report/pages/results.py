@@ -20,7 +20,7 @@ from report.project.model.choices import Direction
 from report.runs import MotionRun
 from report.text.names import named
 from report.text.unit_format import UnitFormat
-from report.text.units import NO_BREAK, no_less, number
+from report.text.units import no_less, number
 from solver.model import Orientation, Status
 
 _Alike = Sequence[ArrayAssessment]
@@ -60,7 +60,7 @@ def _results(package: PackageData, group: _Alike) -> Mapping[str, object]:
     slope_rad = array.array.slope_rad
     return {
         "slope": f"{number(math.degrees(slope_rad), 2)}° "
-        f"({number(100.0 * math.tan(slope_rad), 1)}{NO_BREAK}%)",
+        f"({number(100.0 * math.tan(slope_rad), 1)}%)",
         "mu": mu_words(array.array.friction),
         # Arrays share their runs by what a run takes; of what they are built the runs know nothing.
         "constructions": "; ".join(dict.fromkeys(item.array.construction for item in group)),
@@ -107,10 +107,10 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
         ),
         (required("Governing PRD", 1.08), attrgetter("governing.prd_m")),
         *((in_first("Largest of all runs", d.value), methodcaller("peak_m", d)) for d in _WAYS),
-        (in_first("Residual", "down"), attrgetter("governing.result.residual_m")),
-        (in_first("Residual", "across"), attrgetter("governing.result.residual_across_m")),
+        (in_first("Residual", "downslope"), attrgetter("governing.result.residual_m")),
+        (in_first("Residual", "cross-slope"), attrgetter("governing.result.residual_across_m")),
         (text("Time", "s", 0.85), lambda run: number(run.governing.result.t_prd_s, 2)),
-        (text("N/(m g)", share=1.2), lambda run: number(run.governing.result.n_min_g, 2)),
+        (text("N/W", share=1.2), lambda run: number(run.governing.result.n_min_g, 2)),
         (words("Status", 1.05), lambda run: _SHORT[run.governing.result.status]),
     ]
     table = listed(
@@ -144,7 +144,7 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
     floor = "none; the analysis is peer reviewed"
     if not package.data.is_peer_reviewed:
         share = number(100.0 * package.assessment.rules["analysis_floor"], 0)
-        floor = f"{share} % of prescriptive, {package.marks.clause('analysis_floor')}"
+        floor = f"{share}% of prescriptive, {package.marks.clause('analysis_floor')}"
     # The keys are those of results.json, by which changes are known.
     rows: Sequence[tuple[str, str, float, str, str]] = (
         ("mean_prd_m", "Mean", analysis.mean_m, "", "of the motions"),

@@ -1,7 +1,7 @@
 """What an analysis could save where an array takes the prescriptive displacement, in sentences.
 
     With an analysis, the design displacement of all arrays could be as low as 40.8 in (1036 mm)
-    instead of 81.6 in (2072 mm): without peer review, the floor is 50 % of the prescriptive
+    instead of 81.6 in (2072 mm): without peer review, the floor is 50% of the prescriptive
     displacement (PV1-2012).
 
 `report.assessment.support` computes it. Read `saving_words`.
@@ -44,10 +44,7 @@ def saving_words(found: Saving, marks: Marks, fmt: UnitFormat) -> str:
         )
     floor, clause = fmt.both_up(found.floor_m), marks.clause("analysis_floor")
     percent = number(100.0 * marks.assessment.rules["analysis_floor"], 0)
-    share = (
-        f"{percent}{fmt.space}%{marks.of('analysis_floor')} of the prescriptive displacement "
-        f"({clause})"
-    )
+    share = f"{percent}%{marks.of('analysis_floor')} of the prescriptive displacement ({clause})"
     if found.floor_m < found.prescriptive_m:
         sentences = [
             f"With an analysis, the design displacement of "
@@ -70,7 +67,7 @@ def _at_floor(found: Saving, floor: str) -> str:
     """Return how many of the clearances that fail would be satisfied at the floor."""
     if found.n_short == 1:
         still = "" if found.n_satisfied else "still not "
-        return f"At {floor}, the clearance that fails would {still}be satisfied"
+        return f"At {floor}, the failing clearance would {still}be satisfied"
     if found.n_satisfied == found.n_short:
         count = "all"
     else:

@@ -147,7 +147,13 @@ def _hazard(data: ProjectInput) -> Iterator[_Row]:
         source = "computed" if building.structure else "assumed"
         name = f"Approximate period, structure type {structure}"
         yield _row(name, "T_a", _given(period_s, unit=seconds), clause("period"), source)
-    yield _row("Corner period", "T_S", _given(found.t_s, unit=seconds), clause("t_l"), "computed")
+    yield _row(
+        "End of the spectral plateau",
+        "T_S",
+        _given(found.t_s, unit=seconds),
+        clause("t_l"),
+        "computed",
+    )
 
 
 _Named = tuple[str, float | None]
@@ -188,7 +194,7 @@ def _category_and_force(data: ProjectInput) -> Iterator[_Row]:
     )
     by_short, by_long, near_fault = categories
     by_s_1 = near_fault or f"below {hazard.NEAR_FAULT_S_1_G:g}{NO_BREAK}g"
-    source = Markup("most severe of {} (short period), {} (1{}s), {} {}").format(
+    source = Markup("the most severe of {} (short period), {} (1{}s), {} {}").format(
         by_short, by_long or _NOT_ENTERED, NO_BREAK, symbol("S_1"),
         _NOT_ENTERED if site.s_1_g is None else by_s_1,
     )  # fmt: skip

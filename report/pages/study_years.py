@@ -66,7 +66,7 @@ def _table(shared: Sequence[tuple[ArrayAssessment, YearsOfArray]], fmt: UnitForm
         (text("PRD of 700 years", share=1.5), lambda row: known(row[1].prd_m["700"])),
         (text("Largest distance, mean", share=1.5),
          lambda row: known(mean_m(row[1].largest["never"]))),
-        (text("95 %", share=1.5), lambda row: known(row[1].largest["never"].p95_m)),
+        (text("95%", share=1.5), lambda row: known(row[1].largest["never"].p95_m)),
         (text("μ and slope of the study", share=1.4),
          lambda row: f"{number(row[1].mu, 3)}, {number(row[1].slope_deg, 2)}°"),
     )  # fmt: skip

@@ -53,7 +53,7 @@ def page(
         "arrays_caption": _caption(package),
         "has_seaoc": not done.has_motions and not done.rules.name.startswith("SEAOC"),
         "governing": governing_table(sheet, done, numbers),
-        "governing_caption": f"Governing of {len(done.checks)} checks: {then}the largest ratio of "
+        "governing_caption": f"Governing of {len(done.checks)} checks: {then}largest ratio of "
         "each type",
         "n_largest": len(sheet.largest),
         "following": capitalized(numbered(sheet.n_following, "more check"))
@@ -99,7 +99,7 @@ def _caption(package: PackageData) -> str:
 def _enough(done: Assessment, found: Remedies) -> str:
     """Return what is enough for a project that is NG, in a sentence; or that nothing found is."""
     if found.own and not found.together:
-        return "None of the combinations of changes that were tried is enough."
+        return "None of the combinations of changes that were tried is sufficient."
     return found.sentence
 
 

@@ -48,7 +48,7 @@ SYMBOLS: Mapping[str, str] = {
     "m": "mass of the array",
     "N": "normal force between array and roof",
     "n": "number of motions",
-    "PRD": "peak relative displacement, of the array to the roof",
+    "PRD": "peak displacement of the array relative to the roof",
     "R_p": "component response modification factor",
     "R_po": "component strength factor",
     "R_μ": "reduction of the component force by the building's ductility",

@@ -31,7 +31,7 @@ def parsed(content: bytes, name: str) -> Any:
         # It counts how deep it goes; `json` ends in a traceback.
         from_json(content, allow_inf_nan=False)
     except ValueError as error:
-        raise InputError(f"{name} is damaged: no JSON") from error
+        raise InputError(f"{name} is damaged: not JSON") from error
     try:
         return json.loads(content, object_pairs_hook=_object, parse_int=_whole, parse_float=_finite)
     except ValueError as error:
@@ -44,7 +44,7 @@ def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     members = dict(pairs)
     if len(members) < len(pairs):
         twice = next(key for key, count in Counter(key for key, _ in pairs).items() if count > 1)
-        raise ValueError(f"the key {_short(twice)} is given twice")
+        raise ValueError(f"the key {_short(twice)} appears twice")
     return members
 
 
@@ -75,7 +75,7 @@ def differences(
             if key in claimed and key in computed:
                 yield from differences(claimed[key], computed[key], below, shared=shared)
             elif not shared:
-                yield f"{below} is {'missing' if key in computed else 'not of this input'}"
+                yield f"{below} is {'missing' if key in computed else 'not produced by this input'}"
     elif (
         isinstance(claimed, list)
         and isinstance(computed, list)
@@ -85,10 +85,10 @@ def differences(
             yield from differences(*pair, f"{place}[{index}]", shared=shared)
     elif _is_number(claimed) and _is_number(computed):
         if abs(claimed - computed) > _allowed(claimed, computed, place):
-            yield f"{place} is {_short(claimed)}; the input gives {_short(computed)}"
+            yield f"{place} is {_short(claimed)}; the input produces {_short(computed)}"
     # By type first: True == 1 in Python, and not in JSON.
     elif not shared and (type(claimed) is not type(computed) or claimed != computed):
-        yield f"{place} is {_short(claimed)}; the input gives {_short(computed)}"
+        yield f"{place} is {_short(claimed)}; the input produces {_short(computed)}"
 
 
 def _is_number(value: Any) -> bool:
@@ -117,7 +117,7 @@ def first_other_word(claimed: str, computed: str) -> str:
         return ""
     same = takewhile(lambda pair: pair[0] == pair[1], zip(*letters, strict=False))
     index = sum(1 for _ in same)
-    return f"{_word(first, index)} where the input gives {_word(second, index)}"
+    return f"{_word(first, index)} where the input produces {_word(second, index)}"
 
 
 def _word(words: Sequence[str], letter: int) -> str:

@@ -61,14 +61,15 @@ def opened(data: bytes) -> OpenedPackage:
     inside.
     """
     if not data.startswith(b"%PDF-"):
-        raise InputError("is no PDF; get the file again from where it was issued")
+        raise InputError("is not a PDF; obtain the file again from its issuer")
     # It prints what it mends.
     logging.getLogger("pypdf").addHandler(logging.NullHandler())
     pdf = guarded(lambda: PdfReader(io.BytesIO(data), strict=True))
     files = guarded(lambda: _attachments(pdf))
     if MANIFEST not in files:
         raise InputError(
-            f"holds no {MANIFEST}: it is no package of `roofslip report`, or was written by version"
+            f"contains no {MANIFEST}: it is not a package of `roofslip report`, or was written"
+            " by version"
             " 0.1, which did not attach the input"
         )
     return OpenedPackage(
@@ -85,7 +86,7 @@ def opened(data: bytes) -> OpenedPackage:
 def _attachments(pdf: PdfReader) -> dict[str, bytes]:
     """Return the attachments by name, within the limits of a workbook and its records."""
     if pdf.is_encrypted:
-        raise InputError("is encrypted, which no package is")
+        raise InputError("is encrypted, which packages never are")
     # One flat list, as packages have it: a tree of names could go on without end.
     listed = pdf.root_object.get("/Names", {}).get("/EmbeddedFiles", {}).get("/Names", ())
     files: dict[str, bytes] = {}
@@ -102,7 +103,7 @@ def _attachments(pdf: PdfReader) -> dict[str, bytes]:
         if len(content) > MAX_RECORD or total > MAX_TOTAL:
             raise InputError(
                 f"its attachments unpack to more than {MAX_RECORD // MB} MB in one or"
-                f" {MAX_TOTAL // MB} MB in all"
+                f" {MAX_TOTAL // MB} MB in total"
             )
     return files
 
@@ -153,7 +154,7 @@ def take_out(
 
     `records` is where the record files lie that the package only lists.
 
-    Raises `InputError` if a name leads outside of the folder or is given twice, or a record is not
+    Raises `InputError` if a name leads outside of the folder or appears twice, or a record is not
     that listed.
     """
     written: dict[str, list[Path]] = {}

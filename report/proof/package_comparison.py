@@ -78,7 +78,7 @@ def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
 
 def failed(package: OpenedPackage, problems: Sequence[str]) -> Proof:
     """Return the outcome for a package whose input does not run here."""
-    reason = f"its input does not run: {'; '.join(problems)}"
+    reason = f"its input cannot be run: {'; '.join(problems)}"
     # What another version accepted may be refused here, and is then no sign of tampering.
     if not _is_other(package.manifest.roofslip_version):
         return Proof(answer=Agreement.DIFFERS, reasons=(reason,))
@@ -87,7 +87,7 @@ def failed(package: OpenedPackage, problems: Sequence[str]) -> Proof:
 
 def _not_compared(theirs: Manifest, ours: Manifest) -> str:
     if _is_other(theirs.roofslip_version):
-        return f"{_other_version(theirs)}; words and drawings not compared: {_READ}"
+        return f"{_other_version(theirs)}; text and drawings not compared: {_READ}"
     versions = [
         f"{name} {theirs.environment.get(name, 'none')} (here {version})"
         for name, version in ours.environment.items()
@@ -106,7 +106,9 @@ def _is_other(theirs: str) -> bool:
 
 
 def _other_version(theirs: Manifest) -> str:
-    return f"Roofslip {theirs.roofslip_version} made it: install that version to compare all of it"
+    return (
+        f"Roofslip {theirs.roofslip_version} created it: install that version to compare everything"
+    )
 
 
 def _reasons(

@@ -26,7 +26,7 @@ _FORBIDDEN = {
     **dict.fromkeys(("/AA", "/OpenAction", "/URI", "/PA"), "an action"),
     **dict.fromkeys(("/JS", "/JavaScript", "/XFA"), "a script"),
     **dict.fromkeys(("/OC", "/OCGs", "/OCProperties"), "a layer"),
-    **dict.fromkeys(("/Collection", "/RF"), "an attachment that is not ours"),
+    **dict.fromkeys(("/Collection", "/RF"), "a foreign attachment"),
 }
 
 # References back to what lies above: followed last, or all would belong to the first sheet.
@@ -44,7 +44,7 @@ def pages(pdf: PdfReader) -> Sequence[PageObject]:
     while pending:
         node: Any = pending.pop().get_object()
         if id(node) in seen or len(seen) > MOST_SHEETS:
-            raise InputError("has a sheet twice, or more sheets than any package")
+            raise InputError("has a sheet twice, or more sheets than a package can have")
         seen.add(id(node))
         count += "/Kids" not in node
         pending += list.__iter__(node.get("/Kids", []))
@@ -64,7 +64,7 @@ def refused(pdf: PdfReader) -> Iterator[str]:
         for note in (item.get_object() for item in page.get("/Annots", ())):
             fields += note["/Subtype"] == "/Widget" and not _is_hidden(note)
             if _is_other(note) or fields > 1:
-                yield f"sheet {count}: an annotation beside links and the signature field"
+                yield f"sheet {count}: an annotation other than links and the signature field"
         # A second stream paints over the first one, and leaves its words as they were.
         if not isinstance(page["/Contents"], StreamObject):
             yield f"sheet {count}: its content is in several parts"
@@ -84,7 +84,7 @@ def refused(pdf: PdfReader) -> Iterator[str]:
         if "/Kids" in item and "/UserUnit" in item:
             yield f"{place}: its sheets are scaled"
         if ("/EF" in item and id(item) not in attached) or ("/AF" in item and "/Pages" not in item):
-            yield f"{place}: an attachment that is not ours"
+            yield f"{place}: a foreign attachment"
 
 
 def _is_other(note: Any) -> bool:
@@ -120,7 +120,7 @@ def _dictionaries(pdf: PdfReader) -> Iterator[tuple[str, DictionaryObject]]:
         seen.add(id(item))
         count += len(item)
         if count > MOST_OBJECTS:
-            raise InputError("has more objects than any package")
+            raise InputError("has more objects than a package can have")
         if isinstance(item, ArrayObject):
             pending += [(place, below) for below in reversed(list(list.__iter__(item)))]
             continue
@@ -140,7 +140,7 @@ def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
 
     def check(*_: object) -> None:
         if time.monotonic() > end:
-            raise InputError("takes longer to read than any package")
+            raise InputError("takes longer to read than a package can")
 
     for count, page in enumerate(pages(pdf), start=1):
         check()
@@ -166,4 +166,4 @@ def guarded(read: Callable[[], _T]) -> _T:
         raise
     # A damaged file makes the libraries raise almost anything.
     except Exception as error:
-        raise InputError("is damaged; get the file again from where it was issued") from error
+        raise InputError("is damaged; obtain the file again from its issuer") from error

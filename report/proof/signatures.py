@@ -73,7 +73,7 @@ def _judged(data: bytes, made: bytes) -> Appended:
         stamp = getattr(status, "timestamp_validity", None)
         if not all(part.intact and part.valid for part in (status, stamp) if part):
             problems.append(
-                f"signature '{signature.field_name}': does not fit the bytes that it covers"
+                f"signature '{signature.field_name}': does not match the bytes that it covers"
             )
         levels.append(signature.evaluate_signature_coverage())
         signer = status.signing_cert.subject.native.get("common_name", "")
@@ -187,7 +187,7 @@ def signed(data: bytes, p12: bytes, password: str, time_url: str = "") -> bytes:
     except ValueError:
         signer = None
     if signer is None:
-        raise InputError("the certificate cannot be opened: not PKCS#12, or another password")
+        raise InputError("cannot open the certificate: not a PKCS#12 file, or wrong password")
     about = signers.PdfSignatureMetadata(
         field_name=FIELD, subfilter=fields.SigSeedSubFilter.PADES, md_algorithm="sha256"
     )
@@ -198,10 +198,13 @@ def signed(data: bytes, p12: bytes, password: str, time_url: str = "") -> bytes:
             IncrementalPdfFileWriter(io.BytesIO(data)), existing_fields_only=True, output=out
         )
     except (SigningError, PdfReadError) as error:
-        text = "cannot be signed: its field is missing or is signed already, or it is damaged"
+        text = (
+            "cannot be signed: its signature field is missing or already signed, or the file"
+            " is damaged"
+        )
         raise InputError(text) from error
     except timestamps.TimestampRequestError as error:
-        raise InputError(f"{time_url}: gave no time stamp") from error
+        raise InputError(f"{time_url}: no time stamp received") from error
     return out.getvalue()
 
 

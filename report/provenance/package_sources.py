@@ -193,7 +193,7 @@ def sources(sheet: Sheet, shaking: Shaking, earlier: bytes = b"") -> tuple[Sourc
     # One file may be named by several motions or cells, and is read for each.
     last = dict(used)
     if changed := [path for path, sha256 in used if sha256 != last[path]]:
-        raise InputError(f"{changed[0]}: changed while the report ran; run it again")
+        raise InputError(f"{changed[0]}: changed while the report was running; run it again")
     are_held = holds_records(shaking.records)
     files = [_source(sheet.path.name, contents[sheet.sha256], "workbook")]
     for path, row in rows.items():

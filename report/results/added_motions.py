@@ -163,8 +163,8 @@ def other_sources(sheet: Sheet) -> Iterator[Finding]:
         source = row.get("source") or ""
         stated = _source(sheet.path.parent / str(row.get("record") or "").replace("\\", "/"))
         if stated and _differs(source, stated):
-            text = f"source is '{source}', and suite.json beside the records says '{stated}'"
-            renew = "renew it by motion suite with --into, or correct it"
+            text = f"source is '{source}', but suite.json next to the records states '{stated}'"
+            renew = "update it with motion suite --into, or correct it"
             yield limit(f"{text}; {renew}", Place("motions", index, "source"))
 
 

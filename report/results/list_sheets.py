@@ -122,7 +122,7 @@ _MOTIONS = (
     SheetColumn("pgv_mps", "PGV [m/s]", lambda row: row.measures.pgv_mps),
     SheetColumn("pgd_m", "PGD [m]", lambda row: row.measures.pgd_m),
     SheetColumn("arias_mps", "Arias intensity [m/s]", lambda row: row.measures.arias_mps),
-    SheetColumn("d5_95_s", "Duration 5-95 % [s]", lambda row: row.measures.d5_95_s),
+    SheetColumn("d5_95_s", "Duration 5-95% [s]", lambda row: row.measures.d5_95_s),
     SheetColumn("final_velocity_mps", "Velocity at end [m/s]",
         lambda row: row.measures.final_velocity_mps),
     SheetColumn("final_displacement_m", "Displacement at end [m]",

@@ -74,7 +74,8 @@ def warn_if_mixed(folder: Path, names: Iterable[str]) -> None:
     mixed = [name for name in existing if _sha256(content(folder / name)) != listed.get(name)]
     if mixed:
         warnings.warn(
-            f"{folder}: not as {STAMP} says: {', '.join(mixed)}; a run was cut off, or files were"
+            f"{folder}: not as {STAMP} says: {', '.join(mixed)}; a run was interrupted, or"
+            " files were"
             " changed since",
             stacklevel=2,
         )
@@ -114,7 +115,7 @@ def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> N
             # The same file has many names: other capitals, links, hard links.
             if target.exists() and path.exists() and os.path.samefile(target, path):
                 raise InputError(
-                    f"{path}: is an input of this run, and would be replaced by its {name}; choose"
+                    f"{path}: is an input of this run and would be replaced by its {name}; choose"
                     " another folder with --out"
                 )
 
@@ -130,7 +131,8 @@ def check_of_workbook(folder: Path, results: str, workbook: str) -> None:
         return
     if isinstance(name, str) and name != workbook:
         raise InputError(
-            f"{folder}: has the results of {name}, not of {workbook}; choose another folder with"
+            f"{folder}: contains the results of {name}, not of {workbook}; choose another"
+            " folder with"
             " --out, or delete this one if the workbook was renamed"
         )
 

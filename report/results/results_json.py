@@ -37,7 +37,7 @@ def results_json(assessment: Assessment, evidence: Evidence) -> bytes:
 READ_VERSIONS = (2, SCHEMA_VERSION)
 
 GIVE = "use the results.json of a previous revision"
-AGAIN = "write it again with `report` of this version, from the workbook of that revision"
+AGAIN = "recreate it with this version of `report`, from the workbook of that revision"
 
 # Largest file that is read [B], and most objects of one that is compared.
 MOST_BYTES, MOST_OBJECTS = 25_000_000, 100_000
@@ -69,9 +69,9 @@ def former_from(content: bytes, path: Path) -> Compared:
         # It counts how deep it goes; the parser of the standard library ends in a traceback.
         document = from_json(content, allow_inf_nan=False)
     except ValueError as error:
-        raise InputError(f"{path}: is no results.json or is damaged; {AGAIN}") from error
+        raise InputError(f"{path}: not a results.json file, or damaged; {AGAIN}") from error
     if not isinstance(document, dict):
-        raise InputError(f"{path}: is no results.json or is damaged (no object); {AGAIN}")
+        raise InputError(f"{path}: not a results.json file, or damaged (not an object); {AGAIN}")
     version = document.get("schema_version")
     # True equals 1, and 2.0 equals 2: only a whole number is a version.
     if type(version) is not int or version not in READ_VERSIONS:
@@ -115,4 +115,4 @@ def _first(error: ValidationError) -> str:
     first = error.errors(include_url=False, include_input=False, include_context=False)[0]
     place = ".".join(str(step) for step in first["loc"])
     further = f", and {error.error_count() - 1} more" if error.error_count() > 1 else ""
-    return f"{place or 'the whole'} is not as `report` writes it{further}"
+    return f"{place or 'the whole'} is not in the form that `report` writes{further}"

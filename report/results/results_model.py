@@ -23,7 +23,7 @@ class Results(ResultModel):
     """An assessment and its evidence: the whole of results.json."""
 
     schema_version: int
-    """Raised where a key changes its name or meaning."""
+    """Increased if the name or meaning of a key changes."""
     roofslip_version: str
     """Version that wrote the file."""
     workbook: WorkbookResult
@@ -67,7 +67,7 @@ class Results(ResultModel):
     certainty: UncertaintyResult | None
     """Margins in friction, slope and direction; null without motions."""
     cumulative: tuple[CumulativeResult, ...]
-    """Cumulative displacement; empty where it is not asked for."""
+    """Cumulative displacement; empty if not requested."""
     building_variations: tuple[VariationResult, ...]
     """The governing array with the building as used, which is first, and with others; empty where
     no motion goes through the building."""

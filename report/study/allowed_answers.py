@@ -42,7 +42,7 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
         answers.append((name, by_slope, by_friction))
     return section(
         "study/allowed",
-        f"Least friction and largest slope{on_building(results, building, ', building ')}",
+        f"Lowest friction and steepest slope{on_building(results, building, ', building ')}",
         id=f"allowed-{building}",
         floor_alone=floor_alone,
         frictions=frictions,

@@ -157,7 +157,7 @@ def sheets(results: StudyResults) -> Iterator[tuple[str, Row, list[Row]]]:
     """Yield the sheets of study.xlsx: title, heading and rows."""
     unit, many = length_unit(results), results.years
     yield "Hazard", ("What", "Value", "Unit"), list(_hazard(results))
-    quantiles = ("16 %", "84 %")
+    quantiles = ("16%", "84%")
     hazard_rows: list[Row] = []
     value_rows: list[Row] = []
     for array_years in many:
@@ -207,7 +207,7 @@ def _values(results: StudyResults, array_years: ArrayYears) -> Iterator[Row]:
         for which, distance in zip(("Largest", "Last"), distances, strict=True):
             case, lives = f"put back {name}", "share of lives"
             yield f"{which} distance, mean", case, distance.mean_m / unit.si, *none, unit.symbol
-            yield f"{which} distance, 95 %", case, distance.p95_m / unit.si, *none, unit.symbol
+            yield f"{which} distance, 95%", case, distance.p95_m / unit.si, *none, unit.symbol
             yield f"{which} distance beyond clearance", case, distance.beyond, *none, lives
     for mu, of_mu in zip(array_years.mus, array_years.prd_by_mu_m, strict=True):
         for span, prd_m in zip(rates.RECURRENCES, of_mu, strict=True):

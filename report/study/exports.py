@@ -31,7 +31,7 @@ DEMANDS: Mapping[Intensity, tuple[str, str, str]] = {
     Intensity.SA1: (
         "Spectral Acceleration|1.0",
         "g",
-        "horizontal spectral acceleration at 1 s with 5 % damping",
+        "horizontal spectral acceleration at 1 s with 5% damping",
     ),
 }
 

@@ -296,9 +296,9 @@ def finished(folder: Path, manifest: Mapping[str, Any], done: Sequence[Done]) ->
         "models": {model.title: counts[model.title] for model in Model if counts[model.title]},
         "machines": machines,
         "agreement": (
-            "all parts ran on one processor model: a repetition gives the same bits"
+            "all batches ran on one processor model: a repetition produces the same bits"
             if len(machines) == 1
-            else "parts ran on several processor models: numbers agree to 1e-12"
+            else "batches ran on several processor models: numbers agree to 1e-12"
         ),
         "processor_seconds": round(sum(part.about.seconds for part in done), 3),
         "part_sha256": dict(sorted(sha256.items())),

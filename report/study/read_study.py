@@ -159,7 +159,7 @@ def _about_arrays(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
     # Combinations are of tested values, and an intensity has none.
     is_combined = study.get("sampling") is Sampling.ALL_COMBINATIONS
     if is_combined and study.get("site_intensity") and study.get("intensity_beta"):
-        text = "all combinations take the median intensity"
+        text = "all combinations use the median intensity"
         yield _at("intensity_beta", text, "choose Latin hypercube, or leave it blank")
 
 
@@ -205,12 +205,12 @@ def _about_hazard(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
 
 
 _NEEDED = {
-    "site": "the curve is for another Vs30 than that of the site",
+    "site": "the Vs30 of the curve differs from that of the site",
     "roof": "the motions are roof motions",
 }
 _NEEDLESS = {
     "site": "the curve is for the Vs30 of the site",
-    "roof": "the ground motions are carried through the buildings",
+    "roof": "the ground motions are transferred through the buildings",
 }
 
 

@@ -27,7 +27,6 @@ from report.study.study_motions import study_motions
 from report.study.study_plan import StudyPlan, plan_study
 from report.study.study_results import StudyResults, results_of
 from report.study.user_key import user_key
-from report.text.counts import numbered
 from solver.file_writing import write_all
 
 # Folder of the parts, in the folder of the outputs.
@@ -126,9 +125,9 @@ def _own(done: Mapping[int, Done]) -> dict[int, Done]:
     unsigned = [part for part in done.values() if not part.is_own]
     if unsigned:
         warnings.warn(
-            f"computed again: {numbered(len(unsigned), 'part')} "
-            f"({sum(part.rows for part in unsigned):,} runs) without the signature of your key, of "
-            f"another user or machine or changed by hand; {TRUST_PARTS} takes such parts over",
+            f"recomputed: {sum(part.rows for part in unsigned):,} runs in {len(unsigned)} of "
+            f"{len(done)} batches not signed with your key (from another user or machine, or "
+            f"edited); {TRUST_PARTS} also reuses such batches",
             stacklevel=3,
         )
     return {number: part for number, part in done.items() if part.is_own}

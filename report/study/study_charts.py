@@ -247,7 +247,7 @@ def _ranked(axes: Axes, state: LimitState) -> None:
 
 
 def tornado(bars: Sequence[Bar], center_m: float, unit: Unit) -> str:
-    """Return the tornado chart: mean PRD with each variable at its 5 % and 95 % quantile."""
+    """Return the tornado chart: mean PRD with each variable at its 5% and 95% quantile."""
     with style():
         height = 0.85 + 0.36 * len(bars)
         figure, axes = boxed(height, (0.2, 0.55 / height, 0.78, 1.0 - 0.65 / height))

@@ -100,7 +100,7 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
     folder = (top / name).resolve()
     if not folder.is_relative_to(top.resolve()) or not folder.is_dir():
         sheet.refuse(
-            [Finding.error(_FOLDER, f"'{name}' is no folder beside this workbook", "enter one")]
+            [Finding.error(_FOLDER, f"'{name}' is not a folder next to this workbook", "enter one")]
         )
     groups: dict[str, dict[str, str]] = {}
     for path in sorted(folder.iterdir()):
@@ -113,7 +113,7 @@ def _of_files(sheet: StudySheet) -> list[dict[str, str]]:
         row[field] = f"{name}/{path.name}"
     lost = [motion for motion, row in groups.items() if "record" not in row]
     if lost or not groups:
-        wrong = f"'{name}' has no record" + (f" {lost[0]}-x" if lost else "")
+        wrong = f"'{name}' contains no record" + (f" {lost[0]}-x" if lost else "")
         sheet.refuse(
             [Finding.error(_FOLDER, wrong, "add it, or list the motions on the Motions worksheet")]
         )
@@ -141,7 +141,9 @@ def _unlike(
     if samples > MOST_SAMPLES:
         place = Place("motions") if study_input.motions else _FOLDER
         yield Finding.error(
-            place, f"the records have {samples:,} samples in all", f"enter at most {MOST_SAMPLES:,}"
+            place,
+            f"the records have {samples:,} samples in total",
+            f"enter at most {MOST_SAMPLES:,}",
         )
 
 

@@ -154,7 +154,7 @@ def _answers(
 
 _FRAGILITY = (
     "Building", "Array", "Limit state", "Exceeded when", "Limit on PRD of a motion", "Unit",
-    "Median theta", "theta, 5 %", "theta, 95 %", "Dispersion beta", "beta, 5 %", "beta, 95 %",
+    "Median theta", "theta, 5%", "theta, 95%", "Dispersion beta", "beta, 5%", "beta, 95%",
     "Lilliefors p of fit", "Censored capacities", "Motions below the limit again", "Censored runs",
     *(f"Beta, {name}" for name in NAMES), "Beta exported",
 )  # fmt: skip
@@ -191,7 +191,7 @@ def _dispersions(results: StudyResults, result: ArrayStudyResult, state: LimitSt
 
 
 _EXCEEDANCES = (
-    "Building", "Array", "Clearance", "Unit", "Probability of exceedance", "5 %", "95 %", "Runs",
+    "Building", "Array", "Clearance", "Unit", "Probability of exceedance", "5%", "95%", "Runs",
     "Runs without a value",
 )  # fmt: skip
 

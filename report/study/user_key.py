@@ -29,7 +29,7 @@ def user_key() -> bytes:
     except (OSError, RuntimeError) as error:
         where = getattr(error, "filename", None) or "your state folder"
         raise InputError(
-            f"{where}: the key that signs the parts of your studies cannot be kept there "
+            f"{where}: the key that signs the batches of your studies cannot be stored there "
             f"({getattr(error, 'strerror', None) or error}); make the folder writable, or set "
             "XDG_STATE_HOME to a folder of yours that is"
         ) from error

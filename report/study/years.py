@@ -173,7 +173,7 @@ def _by_run(curve: HazardCurve, array: ArrayPlan, responses: Responses) -> tuple
 
 
 def _measured(curve: HazardCurve, array: ArrayPlan, draws: Draws, responses: Responses) -> Floats:
-    """Return what must settle: the PRDs of the recurrences, and the 95 % values of the lives."""
+    """Return what must settle: the PRDs of the recurrences, and the 95% values of the lives."""
     limits_m, by_run = _by_run(curve, array, responses)
     prd_m = displacements_at(limits_m, by_run.mean(axis=(1, 2)), np.array(RECURRENCES))
     # Never put back: the distances that most events add up to.

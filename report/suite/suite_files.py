@@ -59,7 +59,7 @@ def check_folder(folder: Path, count: int) -> None:
     if remaining:
         raise InputError(
             f"{folder}: {remaining[0]} and {len(remaining) - 1} other files of an earlier suite "
-            "would remain; remove them, or choose another folder"
+            "would remain; delete them, or choose another folder"
         )
 
 
@@ -183,7 +183,7 @@ def _spectra(suite: Sequence[SuiteMotion], targets: SuiteTargets, name: str) -> 
         periods_s=1.0 / _DRAWN_HZ[::-1],
         sa_g=np.array([spectrum_fit(r, target, _DRAWN_HZ[::-1]).achieved_g for r in records]),
         target=TargetSpectrum(
-            name="5 % damping", at=partial(target_sa_g, target), from_s=0.0, to_s=math.inf
+            name="5% damping", at=partial(target_sa_g, target), from_s=0.0, to_s=math.inf
         ),
         title=f"{name}, {kind}",
         is_ground=False,

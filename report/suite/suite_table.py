@@ -53,8 +53,8 @@ def suite_table(suite: Sequence[SuiteMotion], targets: SuiteTargets) -> list[str
         *targets.lines,
         *aligned(rows, sides),
         f"{n_within} of {len(components)} components have spectra of {MIN_RATIO:.2f} to "
-        f"{MAX_RATIO:.2f} times the target and a mean ratio within {100 * MAX_MEAN_DIFFERENCE:g} % "
-        f"of 1 (1/12 octave, from {lowest} Hz to {BAND_HZ[1]:g} Hz, 5 % damping)",
+        f"{MAX_RATIO:.2f} times the target and a mean ratio within {100 * MAX_MEAN_DIFFERENCE:g}% "
+        f"of 1 (1/12 octave, from {lowest} Hz to {BAND_HZ[1]:g} Hz, 5% damping)",
         *acceptance_lines(suite_acceptance(suite, targets).rows),
     ]
 

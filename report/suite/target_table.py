@@ -200,7 +200,7 @@ def _columns(
     problems, columns = [], {}
     for cell in above:
         if is_of_another(cell.shown):
-            remedy = "use accelerations in g, or delete a line that is not of the columns"
+            remedy = "use accelerations in g, or delete the line if it is not part of the table"
             problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", remedy, cell.address))
         damping = _DAMPING.search(cell.shown)
         if damping and float(damping[1] or damping[2]) != 5.0:

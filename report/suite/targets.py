@@ -177,7 +177,8 @@ def site_targets(sheet: Sheet) -> tuple[SuiteTargets, list[str]]:
     if sheet.inputs["spectrum"]:
         cells = sheet.where(Place("spectrum"))
         problems.append(
-            f"{cells}: a target spectrum is entered, not that of AC156; add --target to the command"
+            f"{cells}: the workbook has its own target spectrum instead of AC156; add --target"
+            " to the command"
             " motion suite, with that spectrum as CSV"
         )
     if problems:

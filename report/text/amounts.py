@@ -137,7 +137,7 @@ def amount_texts(
             for each in (found, limit)
         )
         percents = in_order(slope, most, 1, is_at_least=is_at_least)
-        texts = [f"{a}° ({b} %)" for a, b in zip(degrees, percents, strict=True)]
+        texts = [f"{a}° ({b}%)" for a, b in zip(degrees, percents, strict=True)]
     elif quantity.has_systems and is_both:
         texts = [*compared_pairs(found, limit, quantity, us_first, is_at_least=is_at_least)]
     else:

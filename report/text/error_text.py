@@ -45,11 +45,11 @@ def percent(value: float) -> str:
     if value != value:
         return "—"
     if value == 0.0:
-        return "0 %"
+        return "0%"
     if abs(value) < 1e-3:
-        return f"{scientific(value)} %"
+        return f"{scientific(value)}%"
     decimals = max(0, 2 - math.floor(math.log10(abs(value))))
-    return f"{number(value, min(decimals, 4))} %"
+    return f"{number(value, min(decimals, 4))}%"
 
 
 def seconds(value: float) -> str:

@@ -141,7 +141,7 @@ def _trim(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
         if all(name in before for name in names):
             more = gap_m(*(after[n] for n in names)) - gap_m(*(before[n] for n in names))
         else:
-            # What has no place in plan is moved away from by one side.
+            # What has no location on the plan is moved away from by one side.
             more = trim_m * any(after[n] is not before[n] for n in names if n in before)
         more += own_m[index + 1]
         place = Place("clearances", index, "provided_m")

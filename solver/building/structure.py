@@ -235,7 +235,7 @@ def building_of_periods(
     Examples
     --------
     >>> building_of_periods([0.5, 0.16], damping=[0.03, 0.05], stories=4)
-    Building: 4 equal stories, in shear; period 0.5, 0.16 s; damping 3, 5 % of critical
+    Building: 4 equal stories, in shear; period 0.5, 0.16 s; damping 3, 5% of critical
     """
     _check_periods(periods_s, damping)
     modes = story_modes(alpha0, stories) if stories else beam_modes(alpha0, BEAM_MODES)
@@ -282,7 +282,7 @@ def _words(lowest: Floats, damping: Sequence[float], alpha0: float, stories: int
         kind += ", in bending" if alpha0 == 0.0 else ""
         if 0.0 < alpha0 < math.inf:
             kind += f", in shear and bending with a lateral stiffness ratio of {alpha0:.3g}"
-    return f"{kind}; period {periods} s; damping {ratios} % of critical"
+    return f"{kind}; period {periods} s; damping {ratios}% of critical"
 
 
 def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None:

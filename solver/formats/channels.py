@@ -58,7 +58,7 @@ def check_components(source: Source, parts: Sequence[range]) -> None:
     if len(parts) != COMPONENTS:
         raise InputError(
             f"{source.at(parts[-1].start)}: found the heading of component {len(parts)}, the last"
-            f" one, where the format has {COMPONENTS} components; use the whole file"
+            f" one, where the format has {COMPONENTS} components; use the complete file"
         )
 
 
@@ -92,7 +92,7 @@ def motion_file(
         a_mps2 = own(channel.a_mps2)
         # A constant is no shaking with gravity in it.
         shakes = has_gravity(a_mps2) and np.ptp(a_mps2) > 0.0
-        gravity = ("the mean is about 1 g: gravity is in it",) if shakes else ()
+        gravity = ("the mean is about 1 g because the record includes gravity",) if shakes else ()
         channel_notes = (*gravity, *channel.notes)
         records.append(
             Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2, notes=channel_notes)
@@ -103,14 +103,16 @@ def motion_file(
         (below, _), (peak, name) = peaks[-2:]
         if 0.0 < below * _OTHER_UNIT <= peak:
             times = f"{peak / below:.0f} times the peaks of the others"
-            all_notes.append(f"{name} reaches {times}: is it in their unit?")
+            all_notes.append(f"{name} reaches {times}: is it in the same unit?")
     mean = np.array([record.a_mps2.mean() for record in records])
     if (
         len(mean) == 3
         and has_gravity(float(np.linalg.norm(mean)))
         and not any(map(has_gravity, mean))
     ):
-        all_notes.append("the means of the three are about 1 g together: gravity is in them")
+        all_notes.append(
+            "the means of the three add up to about 1 g because the records include gravity"
+        )
     return MotionFile(
         name=source.name,
         format=form,
@@ -220,7 +222,7 @@ def check_only_blank(source: Source, first: int, stop: int, before: str) -> None
         if source.lines[index].strip():
             raise InputError(
                 f"{source.at(index)}: found {quoted(source.lines[index].strip())} after {before},"
-                " where a heading is due; use the whole file"
+                " but a heading was expected; use the complete file"
             )
 
 
@@ -235,7 +237,7 @@ def end_of_values(
         if is_mark(source.lines[index]):
             check_only_blank(source, index + 1, lines.stop, f"the end of a {noun}")
             return index, ()
-    note = f"no end-of-data line{words} follows the values: the file may be truncated"
+    note = f"no end-of-data line{words} follows the values; the file may be truncated"
     return lines.stop, (note,)
 
 
@@ -261,6 +263,6 @@ def offset_notes(a_mps2: Floats) -> tuple[str, ...]:
     if abs(mean) <= _OFFSET * peak:
         return ()
     return (
-        f"uncorrected: the mean is {mean / UNITS['g']:.3g} g, {100.0 * abs(mean) / peak:.2g} % of"
+        f"uncorrected: the mean is {mean / UNITS['g']:.3g} g, {100.0 * abs(mean) / peak:.2g}% of"
         " the peak; it is not removed",
     )

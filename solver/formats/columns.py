@@ -18,7 +18,7 @@ from solver.model import Floats
 _FEW, _MANY = 5, 12
 _EVEN_WITHIN, _OFTEN, _NEARLY = 0.01, 0.1, 0.9  # of a step, of all steps
 _WIDER = 2.0  # the later half of the steps / the earlier one
-SIDE_BY_SIDE = "tables side by side; use one of them"
+SIDE_BY_SIDE = "tables side by side; use only one of them"
 _MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
 
 
@@ -92,9 +92,9 @@ def remedy(table: Floats) -> str:
         )
     if counts := counting(table):
         which = ", ".join(str(column + 1) for column in counts)
-        deletion = f"column {which} counts the lines: delete it"
+        deletion = f"column {which} contains line numbers: delete it"
         if len(counts) > 1:
-            deletion = f"columns {which} count the lines: delete them"
+            deletion = f"columns {which} contain line numbers: delete them"
         remaining = np.delete(table, counts, axis=1)
         then = remedy(remaining) if remaining.shape[1] > 1 else "enter the time step dt"
         return f"{deletion}; then {then}"

@@ -117,7 +117,7 @@ def laid_out(source: Source) -> Layout:
     start = first_row(lines)
     first, content = next(rows_of(lines, start), (-1, ""))
     if not content:
-        problem = likely_text(lines) or "found no numbers; enter one or more columns of them"
+        problem = likely_text(lines) or "no numbers found; enter one or more columns of numbers"
         raise InputError(f"{source.name}: {problem}")
     separator = separator_of(content)
     fields = [field.strip() for field in content.split(separator)]
@@ -148,14 +148,15 @@ def _check_first(source: Source, first: int, fields: Sequence[str]) -> None:
     for index, line in enumerate(source.lines[: first + 1]):
         if _FACTOR.fullmatch(plain := line.strip("# ")):
             raise InputError(
-                f"{source.at(index)}: found {quoted(plain)}, a factor of the numbers below it;"
+                f"{source.at(index)}: found {quoted(plain)}, a factor for the numbers below it;"
                 " multiply them all by it, and delete the line"
             )
     words = [field for field in fields if field.strip(" *")]
     if any(is_heading(word) or _LETTERS.match(word) for word in words):
         problem = likely_text(source.lines) or (
-            f"found {quoted(source.lines[first].strip())} where numbers are due, and no heading of"
-            f" a format that is read; {COLUMNS}, times any factor that the text states, and put #"
+            f"found {quoted(source.lines[first].strip())} where numbers were expected; the file"
+            " is in"
+            f" no supported format; {COLUMNS}, multiplied by any factor in the text, and put #"
             " before every other line of text"
         )
         raise InputError(f"{source.at(first)}: {problem}")

@@ -14,7 +14,7 @@ _CONVERT = (
 )
 
 COLUMNS = "write its values as columns below a heading such as time_s,x_g,y_g"
-_AS_RECORD = "use the record itself, such as the file that its download page offers"
+_AS_RECORD = "use the record itself, such as the file offered on its download page"
 _AS_READ = f"use the file of values that it reads, or {COLUMNS}"
 
 _TEXTS = (
@@ -26,7 +26,7 @@ _TEXTS = (
     (re.compile(r"TIMESERIES \S+_"), "TSPAIR or SLIST of EarthScope", _CONVERT),
     (re.compile(r"(?i)(?:WID[12]|BEGIN GSE2|BEGIN IMS)\b"), "GSE2", _CONVERT),
     # SAC writes -12345 for each value of its header that is not known.
-    (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in letters", _CONVERT),
+    (re.compile(r"(?i)(?:\s+-?12345(?:\.0*)?){3}"), "SAC in text form", _CONVERT),
     (re.compile(r"(?i)\s*(?:timeSeries|set|pattern)\s+\S+\s+\S|\s*(?:import\s|function\s[^(]*\()"),
      "a program", _AS_READ),
 )  # fmt: skip
@@ -40,8 +40,8 @@ _BYTES = (
     (re.compile(rb"\x1f\x8b"), "a gzip", "unpack it"),
     (re.compile(rb"%PDF"), "a PDF", "export its numbers as text or CSV"),
     (re.compile(rb"\x89HDF"), "HDF5, such as ASDF", _CONVERT),
-    (re.compile(rb"MATLAB"), "a file of MATLAB", COLUMNS),
-    (re.compile(rb"\x93NUMPY"), "an array of numpy", COLUMNS),
+    (re.compile(rb"MATLAB"), "a MATLAB file", COLUMNS),
+    (re.compile(rb"\x93NUMPY"), "a NumPy array", COLUMNS),
 )
 
 
@@ -50,7 +50,7 @@ def likely_text(lines: Sequence[str]) -> str:
     near = [line for line in lines[:LOOKED_AT] if line.strip()]
     for pattern, name, remedy in _TEXTS:
         if any(map(pattern.match, near)):
-            return f"this looks like {name}, which is not read; {remedy}"
+            return f"this looks like {name}, which is not supported; {remedy}"
     return ""
 
 

@@ -149,7 +149,7 @@ def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
         index, row = rows[digits.index(odd)]
         raise InputError(
             f"{source.at(index)}: found {quoted(row.strip())}, with fewer digits than all other"
-            " values; use the whole file"
+            " values; use the complete file"
         )
 
 
@@ -158,7 +158,7 @@ def check_last(source: Source, index: int, fields: Sequence[str]) -> None:
     if is_cut_short(fields[-COMPARED:]):
         raise InputError(
             f"{source.at(index)}: found {quoted(fields[-1])} at the end, with fewer digits than all"
-            " other values; use the whole file"
+            " other values; use the complete file"
         )
 
 
@@ -329,12 +329,12 @@ def _cut_lines(
     for index in within:
         yield (
             f"{source.at(block.first + index)}: found a line of {len(rows[index])} characters that"
-            f" ends within a field of {layout.width}; use the whole file"
+            f" ends within a field of {layout.width}; use the complete file"
         )
 
 
 def _wrong_count(source: Source, block: Block, count: int) -> str:
-    remedy = "use the whole file" if count < block.count else "correct the count"
+    remedy = "use the complete file" if count < block.count else "correct the count"
     return f"{source.at(block.promised)}: states {block.count} values, found {count}; {remedy}"
 
 

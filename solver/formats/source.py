@@ -95,8 +95,8 @@ class Source:
             )
         if self.response:
             raise InputError(
-                f"{self.at(index)}: the file is in {stated} and a response is given, which is that"
-                " of raw counts; use the file alone"
+                f"{self.at(index)}: the file is in {stated}, but a response is entered, which"
+                " applies to raw counts; omit the response"
             )
         # gal and cm/s2 are one unit by two names.
         if self.units and not math.isclose(unit_size(self.units), size):
@@ -116,7 +116,7 @@ class Source:
         """Value [m/s2] of a raw count, if the caller gives their number."""
         if math.isnan(self.counts_per_mps2):
             raise InputError(
-                f"{problem}: raw counts are no acceleration without the response of the instrument;"
+                f"{problem}: raw counts require the response of the instrument;"
                 " enter it (motion convert --response), as StationXML for miniSEED and SAC, or as"
                 " counts per m/s2"
             )
@@ -175,8 +175,8 @@ class Source:
         # A caller may give 1/128 s as 0.007813 s, which is then taken.
         if abs(value - self.dt_s) > stated.rounding + 1e-4 * value:
             problem = (
-                f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but the one"
-                f" given is {self.dt_s:.6g} s"
+                f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but"
+                f" {self.dt_s:.6g} s was entered"
             )
             remedy = "enter the time step of the file, or none"
             raise InputError(Problem(problem, remedy, about="dt_s"))
@@ -202,7 +202,7 @@ def open_source(
     if type(values_per_line) is not int or values_per_line < 0:
         problems.append(f"{name}: values per line is {quoted(values_per_line)}; enter 1, 2, ...")
     if units and response:
-        problems.append(f"{name}: units and a response are given; use one of them")
+        problems.append(f"{name}: units and a response are entered; use only one of them")
     raise_any(problems)
     data = _bytes(path)
     return Source(
@@ -232,7 +232,7 @@ def _bytes(path: Path) -> bytes:
             raise InputError(f"{name}: no such file; {meant(path) or 'use the path of a record'}")
     except OSError as error:
         raise InputError(f"{name}: cannot be read ({error.strerror})") from error
-    return read_file(path, MAX_BYTES, name, too_large="use a part of it")
+    return read_file(path, MAX_BYTES, name, too_large="use part of it")
 
 
 def _lines(name: str, data: bytes) -> list[str]:

@@ -70,7 +70,7 @@ def read(source: Source) -> MotionFile:
     if layout.headings and (named := phrases.of_a_spectrum(layout.headings)):
         raise InputError(
             f"{source.at(layout.heading_index)}: found {', '.join(map(quoted, named))}: this is a"
-            " spectrum, no record; use accelerations by time"
+            " spectrum, not a record; use accelerations by time"
         )
     _check_remarks(layout, table)
     timed = _has_times(layout, table)
@@ -79,7 +79,7 @@ def read(source: Source) -> MotionFile:
     if not taken:
         ignored_names = (f"{quoted(layout.headings[i].text)}, {why}" for i, why in ignored.items())
         raise InputError(
-            f"{source.name}: found no component of acceleration beside {'; '.join(ignored_names)}:"
+            f"{source.name}: found no acceleration component next to {'; '.join(ignored_names)}:"
             " name one with a heading such as acc_g"
         )
     columns = table[:, taken].T
@@ -103,7 +103,7 @@ def read(source: Source) -> MotionFile:
         notes.append(f"column {quoted(layout.headings[i].text)} is ignored: it is {why}")
     if not source.is_ended:
         notes.append(
-            "the last line has no line end: if the file was cut there, its last value or further"
+            "the last line has no line end: if the file was truncated, its last value or further"
             " samples are missing"
         )
     file = motion_file(source, "text", channels, notes)
@@ -191,7 +191,8 @@ def _shaped(layout: Layout) -> Floats | None:
         )
     if len(widths) == 1 and widths != {width} and last_width <= min(widths):
         raise InputError(
-            f"{source.at(first)}: found {width} numbers above rows of {min(widths)}; if they are no"
+            f"{source.at(first)}: found {width} numbers above rows of {min(widths)}; if they"
+            " are not"
             " samples, put # before them, and enter the time step"
         )
     return None
@@ -229,7 +230,7 @@ def _check_count(layout: Layout, table: Floats) -> None:
     for index, line in layout.remarks:
         stated = phrases.count_in(line)
         if stated not in counts:
-            remedy = "use the whole file" if samples < stated else "correct the count"
+            remedy = "use the complete file" if samples < stated else "correct the count"
             raise InputError(
                 f"{layout.source.at(index)}: states {stated} samples, found {samples}; {remedy}"
             )
@@ -246,7 +247,7 @@ def _check_last(layout: Layout) -> None:
     if is_cut_short(fields):
         raise InputError(
             f"{source.at(rows[-1][0])}: found {quoted(fields[-1])} at the end, with fewer digits"
-            " than the values before it and without a line end; use the whole file, or end its"
+            " than the values before it and without a line end; use the complete file, or end its"
             " last line"
         )
 
@@ -269,12 +270,12 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
         if is_positive and phrases.is_of_a_spectrum(line):
             raise InputError(
                 f"{place}: found {quoted(line)} above values of which none is negative: this is a"
-                " spectrum, no record; use accelerations by time"
+                " spectrum, not a record; use accelerations by time"
             )
         if not is_said and (quantity := phrases.other_quantity(line)):
             heading = "acc_g" if table.shape[1] == 1 else "time_s,acc_g"
             raise InputError(
-                f"{place}: found {quantity!r}, and no acceleration; use the file of acceleration,"
+                f"{place}: found {quantity!r} but no acceleration; use the acceleration file,"
                 f" or a heading such as {heading} if the values are accelerations"
             )
 
@@ -352,7 +353,7 @@ def _unit_of_times(layout: Layout, table: Floats) -> float:
     step = float(np.median(np.diff(table[:, 0])))
     if not (heading and heading.unit) and step >= _LONGEST_STEP and len(table) > _FEW:
         noun = quoted(heading.text) if heading else "a first column"
-        or_none = "" if heading else ", or delete the column if it counts the samples"
+        or_none = "" if heading else ", or delete the column if it contains sample numbers"
         raise InputError(
             f"{layout.source.at(max(layout.heading_index, 0))}: found {noun} with steps of"
             f" {step:g}; enter the unit of the times, such as time_s or time_ms{or_none}"

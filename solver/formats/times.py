@@ -62,7 +62,7 @@ def sampled(
         return source.step(stated), columns, ()
     if not math.isnan(source.dt_s):
         problem = (
-            f"{source.name}: found uneven times but the time step given is {source.dt_s:.6g} s"
+            f"{source.name}: found uneven times but the entered time step is {source.dt_s:.6g} s"
         )
         raise InputError(Problem(problem, "omit it, and the record is resampled", about="dt_s"))
     return _resampled(source, t_s, columns, line_of)
@@ -87,7 +87,7 @@ def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Eve
     note = f"the times are rounded to {resolution:g} s"
     if abs(source.dt_s - step) <= blur:
         rounding_note = (
-            f"{note}: the time step is the one given, and a missing sample would not show"
+            f"{note}: the entered time step is used, and a missing sample would not be noticed"
         )
         return source.dt_s, columns, (rounding_note,)
     usual = (1.0 / rate for rate in _RATES_HZ if abs(1.0 / rate - step) <= blur)
@@ -160,7 +160,7 @@ def _resampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[
             f" use a record of at most {MAX_SAMPLES:,} steps"
         )
     step, even, loss = best
-    moved = f" by more than {100.0 * loss:.2g} % of the peak" if loss > 1e-9 else ""
+    moved = f" by more than {100.0 * loss:.2g}% of the peak" if loss > 1e-9 else ""
     note = (
         f"times are uneven, steps of {steps.min():.4g} to {steps.max():.4g} s: resampled at"
         f" {step:g} s by linear interpolation, which changes no sample{moved}"

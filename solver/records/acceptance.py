@@ -142,13 +142,13 @@ def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[Limit]:
         band = f"1.3 to 33.3 Hz{_extent(rows, _IS_AC156)}"
         title = f"Spectrum / target at {N_AC156} points, {band}, each component"
         yield _least(title, rows, _IS_AC156)
-        title = f"Neighboring 1/6-octave points below 1.00 of the target, {band}"
+        title = f"Consecutive 1/6-octave points below the target, {band}"
         sets = _sets(_IS_AC156)
         dips = [row.longest_dip(points) for row, points in product(rows, sets)]
         yield _most(title, MOST_IN_A_ROW, dips)
     for points, band in ((_IS_SLOW, "1.3 to 8.3 Hz"), (_IS_FAST, "8.3 to 33.3 Hz")):
         if rows := _compared(ratios, points):
-            title = f"1/6-octave points below 1.00 of the target, {band}{_extent(rows, points)}"
+            title = f"1/6-octave points below the target, {band}{_extent(rows, points)}"
             dips = [row.dips(which) for row, which in product(rows, _sets(points))]
             yield _most(title, MOST_DIPS, dips)
     if rows := _compared(ratios, _IS_SLIDING):
@@ -320,7 +320,7 @@ def _components(strengths: Sequence[MotionStrength]) -> Limit:
     fewest = min(strengths, key=lambda motion: len(motion.strengths))
     missing = [name for name in COMPONENTS if name not in fewest.strengths]
     return Limit(
-        title="Number of components of each motion: two horizontal and the vertical together",
+        title="Components per motion, two horizontal and one vertical",
         found=float(len(fewest.strengths)),
         limit=float(len(COMPONENTS)),
         is_at_least=True,
@@ -332,7 +332,7 @@ def _components(strengths: Sequence[MotionStrength]) -> Limit:
 def _strong_rows(strengths: Sequence[MotionStrength]) -> Iterator[Limit]:
     holds = [(motion.hold_s, motion.id) for motion in strengths if motion.is_generated]
     if holds:
-        title = "Strong motion of generated motions: hold of the envelope"
+        title = "Strong-motion duration of generated motions (hold time)"
         yield _strong_row(title, holds, Consequence.NG)
     durations: list[tuple[float, str]] = []
     for motion in strengths:
@@ -340,7 +340,7 @@ def _strong_rows(strengths: Sequence[MotionStrength]) -> Iterator[Limit]:
             measured = motion.strengths.items()
             durations += [(measure.d5_95_s, f"{motion.id} {name}") for name, measure in measured]
     if durations:
-        title = "Strong motion of records: D5-95 of each component"
+        title = "Strong-motion duration of records (D5-95 of each component)"
         yield _strong_row(title, durations, Consequence.CONDITION)
 
 

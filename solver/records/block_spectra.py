@@ -34,7 +34,7 @@ def together(motions: Sequence[Motion], periods_s: Floats) -> list[list[Floats]]
 
 
 def spectra(a_mps2: Floats, dt_s: float, periods_s: Floats) -> Floats:
-    """Return the spectra of records, shape (c, n), as `response_spectrum` with 5 % damping.
+    """Return the spectra of records, shape (c, n), as `response_spectrum` with 5% damping.
 
     The periods [s], shape (m,), are above 0. The spectra have the shape (c, m) [m/s2].
     """

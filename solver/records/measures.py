@@ -34,7 +34,7 @@ class Measures:
     arias_mps : float
         Arias intensity, pi / (2 g) times the integral of a^2 [m/s].
     d5_95_s : float
-        Time from 5 % to 95 % of the Arias intensity [s]; 0 for a record of zeros.
+        Time from 5% to 95% of the Arias intensity [s]; 0 for a record of zeros.
     final_velocity_mps, final_displacement_m : float
         Signed values at the last sample [m/s], [m]: the drift of the record.
     """
@@ -78,7 +78,7 @@ def measures(record: Record) -> Measures:
 
     As analyzed by the solver, acceleration is linear between samples. Velocity is then quadratic
     and displacement cubic in each interval. Peaks inside an interval are found as roots, and the
-    times of 5 % and 95 % of the Arias intensity in closed form. Arias (1970) in Seismic Design for
+    times of 5% and 95% of the Arias intensity in closed form. Arias (1970) in Seismic Design for
     Nuclear Power Plants, MIT Press, 438-483; significant duration: Trifunac and Brady, Bull. Seism.
     Soc. Am. 65 (1975) 581-626.
 

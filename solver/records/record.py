@@ -210,8 +210,8 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     if codes:
         raise InputError(
             f"{name}: sample {index + 1:,} is {min(codes, key=len)} where no other exceeds"
-            f" {usual / UNITS['g']:.3g} g: it is a code for missing data; use a record without"
-            " gaps"
+            f" {usual / UNITS['g']:.3g} g; this is a code for missing data; use a record"
+            " without gaps"
         )
 
 
@@ -220,8 +220,8 @@ def check_peak(name: str, a_mps2: Floats) -> None:
     peak_g = float(np.abs(a_mps2).max()) / UNITS["g"]
     if not PEAK.has(peak_g):
         raise InputError(
-            f"{name}: the values reach {peak_g:.3g} g, and no ground or roof shakes with"
-            f" {PEAK.most:g} g: is it cm/s2? Enter the units that they have, or correct them"
+            f"{name}: the values reach {peak_g:.3g} g, which is more than {PEAK.most:g} g; are they"
+            " in cm/s2? Enter the correct units, or correct the values"
         )
 
 

@@ -51,7 +51,7 @@ class ResponseSpectrum:
 
     def __repr__(self) -> str:
         peaks = ", ".join(f"{name} up to {a.max():.3g} m/s2" for name, a in self.sa_mps2.items())
-        return f"ResponseSpectrum: {self.periods_s.size} periods, {100 * self.damping:g} %; {peaks}"
+        return f"ResponseSpectrum: {self.periods_s.size} periods, {100 * self.damping:g}%; {peaks}"
 
     def to_frame(self) -> pd.DataFrame:
         """Return the spectra [m/s2] as a table with one column each, indexed by period [s]."""
@@ -122,9 +122,9 @@ def response_spectrum(
     The oscillators are solved exactly for the linearly interpolated record (Nigam and Jennings,
     Bull. Seism. Soc. Am. 59 (1969) 909-922), from rest to the end of the record. Peaks between the
     steps are found on cubics through the exact states, with `PEAK_FINENESS` steps per period or
-    more: within 0.02 % for periods of dt and longer (white noise: 0.007 %), or within 0.02 % of the
+    more: within 0.02% for periods of dt and longer (white noise: 0.007%), or within 0.02% of the
     peak acceleration where a record of a few steps leaves the spectrum far below it. Below dt the
-    steps are `PEAK_STEPS` per interval: within 0.05 % to dt/2, and at samples of the steps alone
+    steps are `PEAK_STEPS` per interval: within 0.05% to dt/2, and at samples of the steps alone
     below dt/2.5. Free vibration after the end of the record is not included: pad the record with
     zeros to include it. Arguments and errors are those of `spectrum`.
     """
@@ -234,7 +234,7 @@ def factor_to_target(
 
     It holds on average over a range of periods: the factor is the exponential of the mean of
     ln(target / spectrum) over log-spaced periods. The spectrum is the geometric mean of the
-    horizontal components' spectra, 5 % damping. This factor minimizes the sum of squared
+    horizontal components' spectra, 5% damping. This factor minimizes the sum of squared
     differences of the logarithms. It applies to all components of the motion, including the
     vertical.
 

@@ -1,4 +1,4 @@
-"""Required response spectra of AC156, 5 % damping, horizontal and vertical.
+"""Required response spectra of AC156, 5% damping, horizontal and vertical.
 
     S_a         ________            A_FLX: 1.92 g for S_DS = 1.2 g at the roof (ASCE 7-16)
                /        `-._____    A_RIG: 1.44 g
@@ -76,7 +76,7 @@ _TAIL_AT_10_S = {Tail.AC156: 0.1, Tail.RECIPROCAL: 0.1 / _FLEXIBLE_FROM_HZ}
 def ac156_horizontal(
     edition: Edition, *, s_ds_g: float, z_over_h: float, tail: Tail = Tail.AC156
 ) -> RequiredSpectrum:
-    """Return the horizontal AC156 spectrum, 5 % damping.
+    """Return the horizontal AC156 spectrum, 5% damping.
 
     A_FLX = S_DS (1 + 2 z/h) <= 1.6 S_DS, A_RIG = 0.4 S_DS (1 + 2 z/h); with ASCE 7-22
     A_FLX = S_DS H_f/R_mu <= 1.6 S_DS, A_RIG = 0.4 S_DS H_f/R_mu, H_f = 1 + 2.5 z/h, R_mu = 1.3
@@ -116,7 +116,7 @@ def ac156_horizontal(
 
 
 def ac156_vertical(*, s_ds_g: float, tail: Tail = Tail.AC156) -> RequiredSpectrum:
-    """Return the vertical AC156 spectrum, 5 % damping: 0.67 S_DS and 0.27 S_DS.
+    """Return the vertical AC156 spectrum, 5% damping: 0.67 S_DS and 0.27 S_DS.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ class PrescriptiveBasis(StrEnum):
     """What governs the prescriptive displacement."""
 
     LOW_CATEGORY = "SDC A, B, C"
-    FORMULA = "formula"
+    FORMULA = "equation"
     MINIMUM = "minimum"
 
 
@@ -242,7 +242,7 @@ def required_mu(rules: RuleSet, slope_rad: float) -> float:
 def building_checks(rules: RuleSet, *, risk_category: int, stories: int) -> tuple[Limit, ...]:
     """Return the checks of the limits on the building, which apply to both routes."""
     return (
-        _check(rules, "Risk category, I = 1 to IV = 4", risk_category, "max_risk_category"),
+        _check(rules, "Risk Category (I = 1 to IV = 4)", risk_category, "max_risk_category"),
         _check(rules, "Number of stories", stories, "max_stories"),
     )
 

@@ -91,7 +91,7 @@ def scene_of(
     # It would count twice: g is added to az.
     if az.size and has_gravity(az):
         raise InputError(
-            f"az_mps2 has a mean of {az.mean():.3g} m/s2: gravity is in it; subtract the mean"
+            f"az_mps2 has a mean of {az.mean():.3g} m/s2: it includes gravity; subtract the mean"
         )
     if units is None and not any(
         isinstance(component, Record | Motion) or is_series(component)
@@ -106,7 +106,7 @@ def unit_size(values: Mapping[str, Given | None], units: str | None, problems: l
     if units is None:
         return _size_of_series(values, problems)
     if any(isinstance(value, Record | Motion) for value in values.values()):
-        problems.append("units are given beside a record or a motion, which is in m/s2; omit them")
+        problems.append("units are entered with a record or a motion, which is in m/s2; omit them")
     if units not in UNITS:
         problems.append(f"units is {shortened(units)}; use one of {', '.join(UNITS)}")
     return UNITS.get(units, 1.0)
@@ -193,7 +193,7 @@ def unpacked(
             steps.add(step)
     if steps and dt_s is not None:
         problems.append(
-            "dt_s is given beside a record or a motion, which has its own, or a Series of times;"
+            "dt_s is entered with a record or a motion, which has its own, or a Series of times;"
             " omit it"
         )
     if len(steps) > 1:
@@ -201,11 +201,11 @@ def unpacked(
         problems.append(f"the components have steps of {steps_text}; use components of one step")
     dt_s = max(steps, default=dt_s)
     if any(isinstance(value, Motion) for value in transverse):
-        problems.append("a motion is given as one component; use it first and alone")
+        problems.append("a motion is entered as one component; use it first and by itself")
     if not isinstance(along, Motion):
         return {name: _samples(value) for name, value in values.items()}, dt_s, 1.0
     if any(value is not None for value in transverse):
-        problems.append("a motion is given with further components; use it alone")
+        problems.append("a motion is entered with further components; use only the motion")
     components = {name: getattr(along, name) for name in ("ax_mps2", "ay_mps2", "az_mps2")}
     return {n: a if a.size else None for n, a in components.items()}, dt_s, along.scale
 

@@ -289,7 +289,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     --------
     >>> from solver import scene
     >>> solve(scene([0.0, 4.0, -4.0, 0.0, 0.0, 0.0], 0.1, slope_rad=0.0, mu=0.2))
-    Solution: one axis; the motion has no other component
+    Solution: one axis; the motion has one component only
     SlideResult: PRD 4.9 mm at 0.17 s, +1.6 mm at the end, 2 stops, ok
     Required friction coefficient 0.408; no more complete model applies
     """

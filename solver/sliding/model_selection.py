@@ -1,7 +1,7 @@
 """Selects the simplest adequate model of a scene: one array under one motion.
 
 A motion of three components on 2 degrees at mu = 0.4 is run in one axis if neither the vertical
-nor the cross-slope component changes a displacement by more than 1 mm, or 0.5 % of the PRD.
+nor the cross-slope component changes a displacement by more than 1 mm, or 0.5% of the PRD.
 
 Integrates nothing itself (`solver.sliding.one_axis` and `solver.sliding.two_axes` do) and knows no
 code rules. Read `Model`, then `solve`.
@@ -254,7 +254,7 @@ def _explain(
 ) -> _Explanation:
     """Return why a model is used and what it neglects [m], from runs of all of them."""
     if not (scene.ay_mps2.size or scene.az_mps2.size):
-        return "the motion has no other component", math.nan
+        return "the motion has one component only", math.nan
     vertical = level = one_axis.run(scene)
     if scene.az_mps2.size:
         level = one_axis.run(_level(scene))
@@ -270,7 +270,7 @@ def _explain(
         neglecting, changed = "neglecting the vertical component", lesser
     else:
         neglecting, changed = "neglecting the second horizontal component", crosswise
-    why = f"{neglecting} changes a displacement by {_mm(changed)}, more than {bound}"
+    why = f"{neglecting} would change a displacement by {_mm(changed)} (tolerance {bound})"
     return why, crosswise if scene.ay_mps2.size and model is Model.ONE_AXIS_VERTICAL else math.nan
 
 
@@ -292,7 +292,8 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
     if model is Model.NO_SLIP and demand > hold:
         raise InputError(
             f"the model 'no slip' is requested, but the required friction coefficient, "
-            f"{demand:.3g}, exceeds that given, {hold:.3g}; request a more complete model"
+            f"{demand:.3g}, exceeds the entered coefficient, {hold:.3g}; request a more"
+            " complete model"
         )
     if model is Model.NO_SLIP:
         return _still(scene, None)
@@ -348,7 +349,10 @@ def _lifted(scene: Scene) -> Solution:
 
 def _still(scene: Scene, bounds: RecordBounds | None) -> Solution:
     demand, hold = friction_demand(scene), scene.friction.mu_static
-    why = f"the required friction coefficient, {demand:.2f}, is below that given, {hold:.2f}"
+    why = (
+        f"the required friction coefficient, {demand:.2f}, is below the entered coefficient,"
+        f" {hold:.2f}"
+    )
     result = _run_along(as_run(scene, Model.NO_SLIP), bounds)
     return _without_next(scene, Model.NO_SLIP, result, why, effect_m=0.0)
 

@@ -378,7 +378,7 @@ def _run(
 def order_alike(scenes: Floats) -> NDArray[np.intp]:
     """Order in which successive scenes begin to slip in one direction at similar accelerations.
 
-    The processor predicts branches from previous runs, so this order is 10 to 20 % faster. With
+    The processor predicts branches from previous runs, so this order is 10 to 20% faster. With
     phi = atan(mu), a block slips first downslope, at a horizontal acceleration of
     g tan(phi - |theta|). Scenes have a row of slope [rad], friction coefficient and scale each.
     """

@@ -1,7 +1,7 @@
 """Uncertain friction, slope and intensity, and what they make of a displacement.
 
-A friction coefficient with a median of 0.40 and a beta of 0.1 is 0.34 at its 5 % quantile and 0.47
-at its 95 % quantile.
+A friction coefficient with a median of 0.40 and a beta of 0.1 is 0.34 at its 5% quantile and 0.47
+at its 95% quantile.
 
 Runs nothing. Read `Spread`, then `latin_hypercube`, `exceedance` and `tornado`.
 """

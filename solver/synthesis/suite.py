@@ -221,7 +221,7 @@ def make_suite(
     Motion k of a seed is the same for any count. Every component alone satisfies the limits on
     motions for analysis where its target is given and the duration has three cycles: it is scaled
     so that its spectrum touches the target at the lowest point of 100 grids of 1/6 octave. It is
-    drawn again if it exceeds its target by more than 30 % anywhere or 7 % in the mean, correlates
+    drawn again if it exceeds its target by more than 30% anywhere or 7% in the mean, correlates
     with another component by more than 0.3, or has a significant duration shorter than the hold of
     the envelope.
 
@@ -236,7 +236,7 @@ def make_suite(
     Parameters
     ----------
     horizontal_target, vertical_target : tuple of array
-        Corner points: frequencies [Hz] and pseudo-spectral accelerations [g], 5 % damping;
+        Corner points: frequencies [Hz] and pseudo-spectral accelerations [g], 5% damping;
         `horizontal_target` is for x and y.
     count : int
     seed : int
@@ -287,7 +287,7 @@ def make_suite(
         seeds, hold_s = (from_x, from_y, from_z), HOLD_SHARE * duration_s
         return SuiteMotion(x=x, y=y, z=z, seeds=seeds, hold_s=hold_s)
 
-    progress(f"0 of {count} motions made")
+    progress(f"0 of {count} motions generated")
     # A stream of its own for each motion: motion k is the same whatever the count.
     sequences = enumerate(np.random.SeedSequence(seed).spawn(count), start=1)
     with ThreadPoolExecutor(THREADS) as pool:
@@ -295,7 +295,7 @@ def make_suite(
         try:
             for done, motion in enumerate(as_completed(motions), start=1):
                 motion.result()
-                progress(f"{done} of {count} motions made")
+                progress(f"{done} of {count} motions generated")
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
     return [motion.result() for motion in motions]
@@ -308,7 +308,7 @@ def synthesize(
     name: str,
     unlike: Sequence[Record] = (),
 ) -> tuple[Record, str]:
-    """Generate one component whose 5 % damped spectrum matches the target of a frame.
+    """Generate one component whose 5% damped spectrum matches the target of a frame.
 
     Sinusoids of random phase under an envelope (SIMQKE), adjusted in frequency, then corrected in
     time by the reversed impulse responses of the oscillators: the sources are in `make_suite`.

@@ -248,7 +248,7 @@ def _properties(records: FloorRecords) -> Iterator[tuple[str, Identified]]:
     if not math.isnan(records.code_period_s):
         yield BY_HEIGHT, Identified(records.code_period_s, CODE_DAMPING, FRAME_ALPHA0, math.nan)
         with_code_damping = fits[0]._replace(damping=CODE_DAMPING)
-        yield f"first fit, but with {100 * CODE_DAMPING:g} % damping", with_code_damping
+        yield f"first fit, but with {100 * CODE_DAMPING:g}% damping", with_code_damping
 
 
 def _predicted(

@@ -51,7 +51,7 @@ def made_building(ground: Record) -> FloorRecords:
     return FloorRecords(
         title=f"Model building of {STORIES} stories",
         description=f"The model building has {STORIES} equal stories that deform in shear and "
-        f"bending, a first period of {PERIOD_S:g} s, {100 * DAMPING:g} % damping in every mode "
+        f"bending, a first period of {PERIOD_S:g} s, {100 * DAMPING:g}% damping in every mode "
         f"and a lateral stiffness ratio of {ALPHA0:g}. The ground motion is {ground.name}. The "
         "floor motions are computed by direct integration of the full system, without modal "
         "superposition, so that the modal solution and the fit have an independent reference.",

@@ -192,7 +192,7 @@ def physical_checks(record: Record) -> Iterator[Verified]:
     yield Verified(
         "PH-3",
         "Paper, Physical Checks (3): the deflections differ",
-        "PRDs differ by more than 1 % (1 = yes)",
+        "PRDs differ by more than 1% (1 = yes)",
         "1",
         f"Slopes 4 and -4 deg, mu = 0.4, {record.name}, PPA = 1.5 g",
         1.0,

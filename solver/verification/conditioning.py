@@ -26,12 +26,12 @@ def conditioning(record: Record, *, quick: bool) -> Iterator[Conditioning]:
     still += "At the limit the result depends on the last digits of μ, for every method."
     shaken = "With shaking, a change in the 9th digit of μ changes the PRD by a similarly small "
     shaken += "share, except where a slip barely occurs."
-    design = "This is the effect of 5 % more or less friction on the PRD."
+    design = "This is the effect of 5% more or less friction on the PRD."
     for title, note, ppa_g, change, mu in (
         ("μ changed by 10⁻⁹, no shaking", still, 0.0, 1e-9, both),
         ("μ changed by 10⁻⁹, shaking, μ near tan θ", shaken, PPA_G, 1e-9, both),
         ("μ changed by 10⁻⁹, shaking", shaken, 1.0, 1e-9, wide),
-        ("μ changed by 5 %, shaking", design, 1.0, 0.05, wide),
+        ("μ changed by 5%, shaking", design, 1.0, 0.05, wide),
     ):
         prd_m, less_m, more_m = sweep(
             record.a_mps2,

@@ -184,7 +184,7 @@ def _friction_by_speed(triple: Motion) -> Iterator[Verified]:
         slow = case.mu * (1.0 - drop)
         law = Friction(mu_slow=slow, mu_fast=case.mu, rate_s_per_m=30.0, mu_static=slow)
         run = two_axes.run(scene_of(triple, case, law), TIGHT)
-        name = f"Low-velocity friction lower by {100.0 * drop:.4g} %: {triple.id}, {case}"
+        name = f"Low-velocity friction lower by {100.0 * drop:.4g}%: {triple.id}, {case}"
         yield Verified("TA-6", source, "PRD", "m", name, plain.prd_m, run.prd_m, 50.0 * drop)
 
 
@@ -201,7 +201,7 @@ def _static_friction(triple: Motion) -> Iterator[Verified]:
             ("TA-8", both, "two axes", prd_both_m, "two axes with one coefficient"),
         ):
             source = f"Converges to {method}: within 50 times the square of the difference"
-            name = f"Static friction {100.0 * excess:g} % above kinetic, {axes}: {triple.id}, "
+            name = f"Static friction {100.0 * excess:g}% above kinetic, {axes}: {triple.id}, "
             found_m = two_axes.run(replace(scene, friction=law), TIGHT).prd_m
             tolerance = 50.0 * excess**2
             yield Verified(id, source, "PRD", "m", f"{name}{case}", kinetic_m, found_m, tolerance)

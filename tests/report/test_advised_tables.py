@@ -130,7 +130,7 @@ KINDS = {
         "enter intensity and annual rate in two columns", RATES,
     ),
     "a line on probabilities": curve(
-        "# 2 % probability in 50 years is 0.3 g\n" + RATES, "or delete it", RATES
+        "# 2% probability in 50 years is 0.3 g\n" + RATES, "or delete it", RATES
     ),
     "periods in ms": target(
         table("period [ms],horizontal [g]", scaled(SPECTRUM, 1000.0, 1.0)), r"enter period \[s\]",
@@ -150,7 +150,7 @@ KINDS = {
         "delete one", PERIODS,
     ),
     "a line of another unit": target(
-        "values in cm/s2\n" + PERIODS, "delete a line that is not of the columns",
+        "values in cm/s2\n" + PERIODS, "delete the line if it is not part of the table",
         PERIODS,
     ),
     "no headings": target(
@@ -178,7 +178,7 @@ KINDS = {
         table("E,N,blocks", BLOCKS), "enter x, y and blocks", MAP
     ),
     "a map in feet with --units m": ballast(
-        table("x [ft],y [ft],blocks", BLOCKS), "another unit; enter that of x and y",
+        table("x [ft],y [ft],blocks", BLOCKS), "another unit; enter the unit of x and y",
         given={"unit_m": 1.0},
     ),
     "half a block": ballast(MAP + "1.0,1.0,0.5\n", "enter a whole number from 0 to", MAP),

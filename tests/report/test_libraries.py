@@ -127,4 +127,4 @@ def test_nor_is_anything_taken_to_write_compare_and_sign_a_package(started):
     package = "PROJECT/out/calc-package.pdf"
     assert "Same: " in started(["verify-package", package])
     told = started(["sign", package, "--p12", RECORD, "--password", "x"], code=2)
-    assert "the certificate cannot be opened" in told
+    assert "cannot open the certificate" in told

@@ -303,8 +303,8 @@ def test_as_many_wrong_names_as_there_are_names_take_time_as_their_number():
 @pytest.mark.parametrize(
     ("name", "wrong"),
     [
-        ("../x.csv", "'../x.csv' is no path within a folder; rename the file"),
-        ("out/..", "'out/..' is no path within a folder; rename the file"),
+        ("../x.csv", "'../x.csv' is not a path within a folder; rename the file"),
+        ("out/..", "'out/..' is not a path within a folder; rename the file"),
         ("p/con.txt", "'p/con.txt' is not allowed: Windows reserves the name 'con.txt'; rename it"),
         ("a" * 201, "'aaa.*' is too long; shorten its name"),
         ("/".join("abcdefghi"), "'a/b.*' is more than 7 folders deep; move it up"),

@@ -1,6 +1,6 @@
 """Strength, slack and weight of an array, and what the existing building has room for.
 
-The existing-building code has a rule of 5 % for gravity and one of 10 % for lateral loads. Neither
+The existing-building code has a rule of 5% for gravity and one of 10% for lateral loads. Neither
 section was compared with its text: hence †.
 """
 
@@ -86,11 +86,12 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
             subject=array.id,
             arrays=(array.id,),
             found=f"roof capacity {NOT_GIVEN}",
-            limit="the weight per plan area that the roof's engineer permits",
+            limit="the allowable roof load",
             clause="roof capacity, as entered",
             actor=Actor.ROOF,
             is_satisfied=False,
-            remedy="Have the roof's engineer state the roof capacity, and enter it on the Arrays "
+            remedy="Obtain the allowable roof load from the engineer of the roof, and enter it"
+            " on the Arrays "
             "worksheet.",
             places=_places(data, array, "roof_capacity_pa"),
         )
@@ -106,7 +107,8 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
             clause="roof capacity, as entered",
             actor=Actor.ROOF,
             is_satisfied=here_pa <= capacity_pa * (1.0 + _NOISE),
-            remedy="Reduce the weight, or have the roof's engineer state a larger capacity.",
+            remedy="Reduce the weight, or obtain a larger allowable load from the engineer of"
+            " the roof.",
             places=_places(data, array, "weight_n", "roof_capacity_pa"),
         )
     yield condition(
@@ -122,8 +124,9 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
         actor=Actor.WIND,
         # To the digits that are printed.
         is_satisfied=wind_pa is not None and measured(wind_pa, unit) == measured(here_pa, unit),
-        remedy="Have the engineer of the wind design state the weight with ballast, and use one "
-        "weight in both.",
+        remedy="Obtain the weight with ballast from the engineer of the wind design, and use"
+        " the same "
+        "weight in both designs.",
         places=_places(data, array, "weight_n", "wind_weight_pa"),
     )
 
@@ -134,8 +137,9 @@ def _places(data: ProjectInput, array: Array, *fields: str) -> tuple[Place, ...]
 
 
 _REMEDY = (
-    "Have the engineer of the existing building evaluate it with the added weight, and enter"
-    " this evaluation on the Site worksheet."
+    "Obtain an evaluation of the existing building with the added weight from its engineer, and"
+    " enter"
+    " it on the Site worksheet."
 )
 
 
@@ -177,9 +181,9 @@ def of_existing_roof(data: ProjectInput) -> Iterator[Check]:
     if lacking:
         yield condition(
             id="existing_roof",
-            title="Existing building with the weight added",
+            title="Existing building with the added weight",
             found=evaluated or f"not checked: {', '.join(lacking.values())} {NOT_GIVEN}",
-            limit="its loads, for the 5% and 10% rules, or an evaluation",
+            limit="the loads for the 5% and 10% rules, or an evaluation",
             clause=f"{code} 503.3, 503.4{year}†",
             is_satisfied=bool(evaluated),
             remedy=f"Enter its loads on the Site worksheet, or {lowered(_REMEDY)}",

@@ -93,7 +93,7 @@ def _found_and_required(near: PlanNeighbor, us_first: bool) -> tuple[Amount | st
     gap = pair(near.gap_m, Quantity.SIZE, us_first, no_more)
     if near.is_missing:
         found_text = f"{NOT_GIVEN}; {gap} on the plan, within twice the design displacement"
-        return found_text, "a clearance, as on the plan"
+        return found_text, "a clearance that agrees with the plan"
     # Several rows of a pair may give several distances.
     values = {row.clearance.provided_m for row in near.contradictions}
     sizes = " and ".join(pair(m, Quantity.SIZE, us_first, no_more) for m in sorted(values))

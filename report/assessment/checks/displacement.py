@@ -139,16 +139,16 @@ def _outcome(status: Status, runs: list[OrientedRun], us_first: bool) -> str:
 def _tipping(item: ArrayAssessment) -> Check:
     return Check(
         id="tipping",
-        title="V/N over the tipping limit b/(2c)",
+        title="V/N divided by the tipping limit b/(2c)",
         subject=item.id,
         arrays=(item.id,),
         found=demand(item.tipping.ratio),
         note=item.tipping.governs,
         limit=capacity(1.0),
         sense=Sense.AT_MOST,
-        clause="statics of a rigid body",
+        clause="rigid-body statics",
         is_satisfied=item.tipping.is_ok,
-        remedy="Lower the center of gravity, or widen the supports.",
+        remedy="Lower the center of gravity, or increase the support spacing.",
     )
 
 

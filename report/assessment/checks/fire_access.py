@@ -79,13 +79,13 @@ def of_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Itera
             title="Fire pathways along the clearances",
             subject=array.id,
             arrays=(array.id,),
-            found=f"{numbered(count, 'clearance')} without an answer" if count else "answered",
+            found=f"{numbered(count, 'clearance')} without an entry" if count else "entered",
             note=f"no row: {', '.join(without_row)}" if without_row else "",
             limit="none or a width, for each clearance",
             clause="fire code, as entered",
             is_satisfied=not count,
-            remedy="Enter for each row of the Clearances worksheet the width of the fire pathway "
-            "along it, or none.",
+            remedy="In each row of the Clearances worksheet, enter the width of the fire pathway "
+            "along the clearance, or none.",
             places=tuple(Place("clearances", index, "pathway_m") for index in blank)
             or (Place("clearances"),),
         )
@@ -108,7 +108,7 @@ def of_sections(data: ProjectInput) -> Iterator[Check]:
         title="Section of the fire code",
         arrays=tuple(rows),
         found=section or NOT_GIVEN,
-        limit="the section on arrays on roofs",
+        limit="the section on rooftop arrays",
         clause="fire code",
         is_satisfied=bool(section),
         remedy="Enter the section of the fire code on the Site worksheet.",

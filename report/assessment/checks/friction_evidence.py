@@ -90,7 +90,7 @@ def _wet_and_dry(data: ProjectInput) -> Check:
     reports = dict.fromkeys(report for report, _ in by_surface)
     still = [index for index, row in enumerate(data.friction_runs) if row.velocity_mps is None]
     rows = [
-        (f"report {report or 'without a number'}: " if len(reports) > 1 else "")
+        (f"report {report or 'without a number'}, " if len(reports) > 1 else "")
         + ", ".join(_runs({s: by_surface.get((report, s)) for s in Surface}, data.us_first))
         for report in reports
     ]
@@ -98,7 +98,7 @@ def _wet_and_dry(data: ProjectInput) -> Check:
         id="friction_tests",
         title="Friction test repeats",
         found="; ".join(rows) or "no runs",
-        limit=f"{LEAST_RUNS} runs or more at each velocity, wet and dry",
+        limit=f"at least {LEAST_RUNS} dry and {LEAST_RUNS} wet runs at each velocity",
         is_satisfied=bool(reports) and all(is_complete(data, report) for report in reports),
         remedy="Obtain the missing runs, and enter them with their velocities on the Friction "
         "tests worksheet.",
@@ -114,7 +114,7 @@ def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterat
         for s, series in by_surface.items()
     }
     for text, alike in grouped_by(words, words.__getitem__).items():
-        yield f"{' and '.join(alike)} {text}"
+        yield f"{' and '.join(alike)}: {text}"
 
 
 def of_velocities(data: ProjectInput, arrays: Sequence[ArrayAssessment]) -> Iterator[Check]:
@@ -152,9 +152,7 @@ def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
     velocities = speed, tested, Quantity.VELOCITY
     slides, range_text = compared_pairs(*velocities, us_first, is_at_least=False)
     slides = (
-        "no velocity from one of the runs"
-        if math.isnan(fastest_mps)
-        else f"peak sliding velocity {slides}"
+        "no velocity from one run" if math.isnan(fastest_mps) else f"peak sliding velocity {slides}"
     )
     if check.tests is None:
         found_text = f"{slides}; no friction test runs entered"
@@ -163,7 +161,7 @@ def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
     if math.isnan(tested_mps):
         range_text = f"velocities tested {NOT_GIVEN}"
     mu, minimum = f"μ above the tested range {check.beyond_words}", check.minimum_words
-    incomplete = "" if check.is_complete else "tests not complete"
+    incomplete = "" if check.is_complete else "tests incomplete"
     notes = filter(None, (range_text, f"{mu}, smallest tested {minimum}", incomplete))
     if check.is_far and math.isfinite(fastest_mps) and tested_mps > 0.0:
         limit = capacity(MOST_BEYOND * tested_mps, Quantity.VELOCITY)
@@ -188,7 +186,7 @@ def of_less(done: Assessment) -> Iterator[Check]:
     reduced = done.at_reduced_friction
     if reduced is None:
         return
-    friction = f"{number(100.0 * SHIFT, 0)} % less friction"
+    friction = f"{number(100.0 * SHIFT, 0)}% less friction"
     row = partial(condition, is_satisfied=False, clause="sensitivity", is_capacity=False)
     changed = [*_routes(done, reduced, friction, row), *_clearances(done, reduced, friction, row)]
     yield from changed or [

@@ -40,7 +40,7 @@ from solver.rules.limit import PROGRAM, Consequence, Limit, Measure
 # move the ground by more, and no ground keeps moving.
 MOST_DRIFT_M, MOST_END_MPS = 0.5, 0.1
 _DRIFT_TITLES = (
-    "Final displacement of each component, unless it is stated to be permanent",
+    "Final displacement of each component, unless stated to be permanent",
     "Final velocity of each component",
 )
 
@@ -96,8 +96,9 @@ def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
         files = grouped_by(shaking.records, attrgetter("motion_id")).values()
         seeds = " ".join(quoted(",".join(file.name for file in names)) for names in files)
         ways += (
-            " Or clear their rows on the Motions worksheet and generate motions from them that"
-            " reach it, in the folder of the workbook: roofslip motion suite matched --into ."
+            " Or clear their rows on the Motions worksheet and generate motions that reach"
+            " it from their records, in the folder of the workbook: roofslip motion suite"
+            " matched --into ."
             f" --records {seeds}"
         )
     return ways
@@ -221,7 +222,7 @@ def _drift(motion: PreparedMotion, index: int) -> Check:
         remedy=f"A permanent displacement is computed as slip. {STAYS}"
         if motion.drift_basis
         else "Correct the baseline of the record, whose drift is computed as slip, or state on the "
-        "Motions worksheet by whom and by what source the displacement is permanent.",
+        "Motions worksheet who determined the permanent displacement, and the source.",
         places=(Place("motions", index, FIELDS[component]),),
     )
 

@@ -98,7 +98,7 @@ _FIELDS = {
 }
 
 _REMEDIES = {
-    "low_profile_in": "Lower the center of gravity of the array, or widen its supports.",
+    "low_profile_in": "Lower the center of gravity of the array, or increase its support spacing.",
     "prescriptive_min_mu": "Provide more friction, shown by tests.",
     "analysis_min_motions": "Complete the motions.",
 }

@@ -25,7 +25,7 @@ def mu_words(law: Friction) -> str:
     """Return friction as it was run, from low to high velocity."""
     sliding = coefficient(law.mu_slow)
     if law.is_by_velocity:
-        sliding += f" to {coefficient(law.mu_fast)} with velocity"
+        sliding += f"–{coefficient(law.mu_fast)} (velocity-dependent)"
     static_text = "" if law.mu_static == law.mu_slow else f", {coefficient(law.mu_static)} at rest"
     return f"{sliding}{static_text}"
 

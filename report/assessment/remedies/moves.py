@@ -1,7 +1,7 @@
 """Moves of an array along an axis of the plan that widen a gap; without a place, the gap alone.
 
 A clearance that lacks 0.53 m: move the array 0.53 m away along one axis of the plan, where the plan
-has room, or provide 0.53 m more where it has no place in plan.
+has room, or provide 0.53 m more where it has no location on the plan.
 
 Assesses nothing: `report.assessment.remedies.remedy` does. Read `moves`.
 """

@@ -250,7 +250,7 @@ def _review(state: _State, check: Check) -> Iterator[Remedy]:
     if check in cured and not designs.keys().isdisjoint(check.arrays):
         alike = grouped_by(designs, designs.__getitem__)
         parts = [f"{ranged(names)} {words}" for words, names in alike.items()]
-        words = f"Have the analysis peer reviewed: design displacement of {joined(parts)}"
+        words = f"Obtain a peer review of the analysis: design displacement of {joined(parts)}"
         yield Remedy(kind=RemedyKind.REVIEW, checks=cured, words=words, change=_reviewed)
 
 

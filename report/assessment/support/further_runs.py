@@ -1,6 +1,6 @@
 """Runs beside those of the design: without high-pass, of smaller events, above other buildings.
 
-A PRD of 0.42 m with the high-pass and 0.50 m without: the filter removes 16 %. After the design
+A PRD of 0.42 m with the high-pass and 0.50 m without: the filter removes 16%. After the design
 event with 0.40 m, a smaller one with 0.10 m makes 0.50 m in all.
 """
 

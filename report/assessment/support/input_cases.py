@@ -67,7 +67,7 @@ def building_case(assessment: Assessment, variations: Variations) -> InputCase |
         return None
     is_damping = building.damping_percent != used.damping_percent
     changed = (
-        f"{number(building.damping_percent, 1)} % building damping"
+        f"{number(building.damping_percent, 1)}% building damping"
         if is_damping
         else f"a building period of {number(building.period_s or math.nan, 2)} s"
     )

@@ -1,4 +1,4 @@
-"""The design with the friction coefficients decreased by 5 %, as given, and increased.
+"""The design with the friction coefficients decreased by 5%, as given, and increased.
 
 A coefficient of 0.50 is run as 0.475 and as 0.525.
 """
@@ -17,7 +17,7 @@ from report.assessment.design.friction import SHIFT, with_friction
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Accuracy:
-    """The design with the friction coefficients decreased by 5 %, as given, and increased."""
+    """The design with the friction coefficients decreased by 5%, as given, and increased."""
 
     at_reduced_friction: Assessment
     entered: Assessment

@@ -22,9 +22,9 @@ def doctor() -> None:
 def completion(shell: str) -> None:
     """Print the shell completion script.
 
-    In bash: `eval "$(roofslip completion bash)"`, which also completes ./roofslip. In zsh the same
-    with zsh, after compinit. In fish: `roofslip completion fish | source`. zsh and fish complete a
-    roofslip that is in the PATH.
+    For bash, run `eval "$(roofslip completion bash)"`, which also completes ./roofslip. For zsh,
+    run the same with zsh, after compinit. For fish, run `roofslip completion fish | source`. In zsh
+    and fish, roofslip must be in the PATH.
     """
     root = click.get_current_context().find_root().command
     script = get_completion_class(shell)
@@ -34,12 +34,12 @@ def completion(shell: str) -> None:
 
 @click.command()
 @click.option("--quick", is_flag=True, help="Run the short tests, some of each test file.")
-@click.option("--nightly", is_flag=True, help="Run all tests, with the coverage of the program.")
-@click.option("--golden", is_flag=True, help="Accept changed texts of the pages.")
+@click.option("--nightly", is_flag=True, help="Run all tests and measure coverage.")
+@click.option("--golden", is_flag=True, help="Accept changed text in the pages.")
 @click.argument("paths", metavar="[PATH]...", nargs=-1)
 def test(**_: object) -> None:
     """Run the linters and tests of a checkout: all tests of PATH, or the everyday suite.
 
-    What pytest takes may follow. The first call installs what tests need, 1.1 GB.
+    Options of pytest may follow. The first run installs the packages for the tests (1.1 GB).
     """
     raise click.UsageError("tests are run by the launcher of a checkout: ./roofslip test")

@@ -20,12 +20,12 @@ _HERE = "report.cli.commands.motion"
 motion.add_section("Commands", f"{_HERE}:convert", f"{_HERE}:info", f"{_HERE}:rows")
 motion.add_section("Commands", "report.cli.commands.suite:suite")
 
-_per_line = click.option("--values-per-line", type=click.IntRange(1), help="The values follow each "
-                         "other across the lines, so many in each but the last.")  # fmt: skip
-_response = click.option("--response", default="", metavar="STATION.xml|NUMBER", help="Response"
-                         " of raw counts (miniSEED): StationXML, or counts per m/s2.")  # fmt: skip
+_per_line = click.option("--values-per-line", type=click.IntRange(1), help="Values run across the "
+                         "lines, this many per line (the last line may be shorter).")  # fmt: skip
+_response = click.option("--response", default="", metavar="STATION.xml|NUMBER", help="Instrument"
+                         " response of raw counts: StationXML, or counts per m/s2.")  # fmt: skip
 _channel = click.option("--channel", default="", metavar="NAME",
-                        help="One channel: its name or its number in the file.")  # fmt: skip
+                        help="Channel to read: its name, or its number in the file.")  # fmt: skip
 
 
 @click.command()
@@ -39,7 +39,7 @@ def info(file: Path, **options: Any) -> None:
     """List the channels of FILE with peaks, duration and drift.
 
     Prints peak acceleration, velocity and displacement, Arias intensity, significant duration (5 to
-    95 % of it), and the velocity and displacement at the end, without baseline correction. The
+    95%), and the velocity and displacement at the end, without baseline correction. The
     format is recognized from the content, not from the file name.
     """
     from report.cli.record_file import print_channels
@@ -51,8 +51,9 @@ def info(file: Path, **options: Any) -> None:
 @click.argument("file", metavar="FILE", type=SOURCE)
 @click.argument("out", metavar="OUT.csv", type=SOURCE)
 @_channel
-@click.option("--factor", type=Number(), default=1.0, help="Multiply the samples, by -1 for a "
-              "vertical record that is positive downward.")  # fmt: skip
+@click.option("--factor", type=Number(), default=1.0, help="Multiply the samples by this"
+                                                           " factor; use -1 "
+              "for a vertical record that is positive downward.")  # fmt: skip
 @_per_line
 @_response
 @reading
@@ -107,7 +108,7 @@ def rows(source: Path, project: Path | None, **options: Any) -> None:
 def slide(ppa_g: float | None, factor: float | None, **options: Any) -> None:
     """Compute the sliding of one block under one RECORD, for a quick check or in a script.
 
-    If a file has several channels, give RECORD as "FILE | CHANNEL" (name or number).
+    If a file has several channels, enter RECORD as "FILE | CHANNEL" (name or number).
     """
     if ppa_g is not None and factor is not None:
         raise click.UsageError("use --ppa-g or --factor, not both")

@@ -37,14 +37,14 @@ plan.add_section("Commands", f"{_HERE}:ballast", f"{_HERE}:clearances", f"{_HERE
 @click.argument("drawing", metavar="ROOF.DXF", type=SOURCE)
 @click.argument("project", metavar="DIR|WORKBOOK", type=SOURCE)
 @click.option("--units", type=click.Choice(UNIT_CHOICES),
-              help="Unit of the drawing; required if it states none.")  # fmt: skip
+              help="Unit of the drawing; required if the drawing does not state it.")  # fmt: skip
 @click.option("--gap", type=(_POSITIVE, click.Choice(UNIT_CHOICES)), default=(20.0, "in"),
               metavar="NUMBER UNIT",
               help="Largest gap between modules of one array; default: 20 in.")  # fmt: skip
 @click.option("--replace", is_flag=True, help="Overwrite existing locations.")
 @click.option("--accept", is_flag=True, help="Accept the proposed types of unknown layers.")
-@click.option("--layer", "layers", metavar="NAME=KIND", multiple=True,
-              help="What is drawn on a layer; may be repeated.")  # fmt: skip
+@click.option("--layer", "layers", metavar="NAME=TYPE", multiple=True,
+              help="Type of a layer; may be repeated.")  # fmt: skip
 @click.option("--rotate", "rotate_deg", metavar="DEGREES|north", default="0", callback=_degrees,
               help="Rotate the drawing counterclockwise, or its north to +y.")  # fmt: skip
 def read(drawing: Path, project: Path, **options: Any) -> None:

@@ -77,7 +77,7 @@ def report(sources: tuple[Path, ...], no_page: bool, **options: Any) -> None:
 def watch(interrupts: Sequence[int], source: Path, out: Path | None) -> None:
     """Check and report on every save of the workbook or a record, until Ctrl+C.
 
-    Prints what changed since the round before. Waits while the workbook is half saved or locked.
+    Prints what changed since the last report. Waits while the workbook is being saved or is locked.
     """
     from report.cli.file_watcher import watch_project
 

@@ -40,10 +40,12 @@ def serve(host: str | None, token_file: Path | None, **options: Any) -> None:
     """
     missing = [name for module, name in _NEEDED.items() if find_spec(module) is None]
     if missing:
-        click.echo(f"The page needs {', '.join(missing)}: install the extra web.", err=True)
+        click.echo(f"The page requires {', '.join(missing)}: install the extra web.", err=True)
         sys.exit(INPUT_ERROR)
     if host is not None and token_file is None:
-        raise click.UsageError("--host needs --token-file: a file with the token of the address")
+        raise click.UsageError(
+            "--host requires --token-file: a file with the token for the address"
+        )
     from report.cli.page_server import serve_page
 
     serve_page(host=host, token_file=token_file, **options)

@@ -60,12 +60,12 @@ _FILE = Existing(dir_okay=False)
 @click.option("--password", envvar="ROOFSLIP_P12_PASSWORD",
               help="Password of CERT.p12; default: ROOFSLIP_P12_PASSWORD or a prompt.")  # fmt: skip
 @click.option("--time-stamp", default="", metavar="URL",
-              help="URL of a time-stamp authority (RFC 3161); PAdES B-T, not B-B.")  # fmt: skip
+              help="URL of a time-stamp authority (RFC 3161), for PAdES B-T.")  # fmt: skip
 @click.option("--out", type=SOURCE, help="File to write; default: FILE-signed.pdf next to it.")
 def sign(file: Path, **options: Any) -> None:
     """Sign a package in the field over its seal box (PAdES baseline).
 
-    The package itself stays as it is, and verifies as before. Nothing is sent anywhere but to URL.
+    The package itself is not changed and still verifies. Nothing is sent, except to URL.
     """
     from report.cli.package_proof import sign_package
 

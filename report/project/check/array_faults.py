@@ -78,13 +78,15 @@ def _beyond(index: int, law: Friction, tests: Series, address: str) -> Iterator[
     # PV1-2012: the average of the kinetic coefficients, of the worse of wet and dry.
     if mean > tested + MU_TOLERANCE:
         says = f"averages {mean:.3g} at the tested velocities" if by_velocity else f"is {mean:g}"
-        text = f"friction coefficient {says}; the tests give {tested:.3g} ({tests.surface}, mean"
-        runs = f" of {len(tests.runs)} from {address})"
+        text = f"friction coefficient {says}; the tested mean is {tested:.3g} ({tests.surface},"
+        runs = f" {len(tests.runs)} runs from {address})"
         remedy = "reduce it" if by_velocity else f"enter {tested:.3g} or less"
         yield Finding.error(Place("arrays", index, "mu"), text + runs, remedy)
     if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
         static = f"{tests.static_mean:.3g}"
-        text = f"static friction is {law.mu_static:g}; the tests give {static} ({tests.surface})"
+        text = (
+            f"static friction is {law.mu_static:g}; the tested value is {static} ({tests.surface})"
+        )
         yield Finding.error(Place("arrays", index, "mu_static"), text, f"enter {static} or less")
 
 
@@ -121,5 +123,5 @@ def _blocks(
     mu = inputs["arrays"][home.row].get("mu") if home else None
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
         side, address = "above" if mu < min(mus) else "below", where(home._replace(field="mu"))
-        fault = f"block friction is '{text}', all {side} the {mu:g} at {address}"
+        fault = f"block friction is '{text}', all values {side} the {mu:g} at {address}"
         yield Finding.error(place, fault, "enter a range that includes it, or change it")

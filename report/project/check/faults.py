@@ -146,13 +146,13 @@ def _letter_edition(inputs: Inputs, where: Where) -> Iterator[Finding]:
         if edition != PackageEdition.LETTER:
             continue
         if n_arrays > MOST_IN_LETTER:
-            fault = f"edition is letter with {n_arrays} arrays, of which it has at most six"
+            fault = f"edition is letter, which permits at most six arrays; {n_arrays} are entered"
             yield Finding.error(place, fault, "choose plan check or complete")
         if inputs["motions"]:
-            fault = "edition is letter, which is not by analysis, and motions are listed"
+            fault = "edition is letter, which does not permit an analysis, but motions are listed"
             yield Finding.error(place, fault, remedy)
         if inputs["overrides"]:
-            yield Finding.error(place, "edition is letter, and provisions are overridden", remedy)
+            yield Finding.error(place, "edition is letter, which does not permit overrides", remedy)
 
 
 def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:
@@ -168,7 +168,7 @@ def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:
             )
             yield Finding.error(place, f"provision is '{cut(key)}'", remedy)
         elif rules and key not in rules.values:
-            fault = f"provision is '{names[key]}', which {rules.name} does not have"
+            fault = f"provision is '{names[key]}', which is not in {rules.name}"
             yield Finding.error(place, fault, "delete the row")
     for place, key, first in repeated(cell for cell in keys if cell[1] in names):
         fault = f"provision is '{names[key]}', already entered at {where(first)}"
@@ -235,7 +235,7 @@ REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
     ("building", "period_s"): (
         lambda row, inputs: row.get("structure", "") is None
         and any(motion.get("recorded_at") is RecordedAt.GROUND for motion in inputs["motions"]),
-        "enter it, or a structure type: a motion is recorded at the ground"),
+        "enter it, or a structure type, because a ground motion is listed"),
 }  # fmt: skip
 
 

@@ -91,12 +91,12 @@ def _ring_faults(outline: OutlineRows, is_us: bool) -> Iterator[Finding]:
     count = len(set(points))
     if count < LEAST_VERTICES:
         text = f"{outline.name} has {count} {'vertex' if count == 1 else 'vertices'}"
-        yield Finding.error(outline.place, text, f"enter at least {LEAST_VERTICES}, one to a row")
+        yield Finding.error(outline.place, text, f"enter at least {LEAST_VERTICES}, one per row")
         return
     point = crossing(points)
     if point is not None:
         text = f"outline of {outline.name} touches or crosses itself near {spot(point, is_us)}"
-        yield Finding.error(outline.place, text, "enter its vertices in order, none of them twice")
+        yield Finding.error(outline.place, text, "enter its vertices in order, each only once")
 
 
 def spot(point: Point, is_us: bool) -> str:
@@ -115,8 +115,8 @@ def _scattered(inputs: Inputs, where: Where) -> Iterator[Finding]:
         before = last.get(name.casefold(), index - 1)
         if before != index - 1:
             address = where(Place("outlines", before, "name"))
-            text = f"outline of '{name}' goes on here after {address}"
-            remedy = "put all of its rows together"
+            text = f"the outline of '{name}' continues here after {address}"
+            remedy = "keep all its rows together"
             yield Finding.error(Place("outlines", index, "name"), text, remedy)
         last[name.casefold()] = index
 
@@ -270,5 +270,5 @@ def _room(
         text += f", but {array} and {neighbor} overlap in plan"
         yield Finding.error(place, text, f"correct their {noun} in {cells}")
     else:
-        text += f", but {array} and {neighbor} are {gap_text} apart in plan"
+        text += f", but {array} and {neighbor} are {gap_text} apart on the plan"
         yield Finding.error(place, text, f"reduce it, or correct the {noun} in {cells}")

@@ -123,5 +123,5 @@ def far_off(
         away_m = gap_m(shape, center)
         if away_m > far_m:
             away = pair(away_m, Quantity.PLAN, is_us)
-            text = f"{name} is {away} from {'the roof' if roof else largest}: is it a leftover?"
-            yield name, f"{text} Delete it, or correct its place"
+            text = f"{name} is {away} from {'the roof' if roof else largest}; was it left over?"
+            yield name, f"{text} Delete it, or correct its location"

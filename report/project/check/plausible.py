@@ -132,7 +132,7 @@ def _height(data: ProjectInput, us_first: bool) -> Iterator[Finding]:
     z, h = data.site.roof_height_m, data.site.structure_height_m
     if z > h:
         height, height_limit = (pair(value, Quantity.PLAN, us_first) for value in (z, h))
-        text = f"height of the array z is {height}, above the structure height h of {height_limit};"
+        text = f"roof height z is {height}, above the structure height h of {height_limit};"
         yield warning("height z", Place("site", 0, "roof_height_m"), f"{text} correct one of them")
 
 
@@ -160,7 +160,9 @@ def _slope(index: int, array: Array) -> Iterator[Finding]:
     # A slope of 2 % that is pasted as a number is 0.02.
     if array.slope_unit is SlopeUnit.PERCENT and 0.0 < array.slope_value < MOST_FRACTION:
         value, percent = array.slope_value, 100.0 * array.slope_value
-        text = f"slope is {value:g} percent; {percent:g} %? Correct the slope, or acknowledge it"
+        text = (
+            f"slope is {value:g} percent; did you mean {percent:g}%? Correct it, or acknowledge it"
+        )
         yield warning(f"slope {array.id}", Place("arrays", index, "slope_value"), text)
 
 
@@ -172,9 +174,10 @@ def _weight(index: int, array: Array, us_first: bool) -> Iterator[Finding]:
             pair(value, Quantity.WEIGHT, us_first) for value in (array.weight_n, parts_n)
         )
         text = (
-            f"weight is {weight}, but {numbered(array.modules or 0, 'module')} and the ballast are"
+            f"weight is {weight}, but {numbered(array.modules or 0, 'module')} and the"
+            " ballast weigh"
         )
-        text += f" {of_parts}, more than {SAME_WEIGHT:.0%} apart; correct one of them"
+        text += f" {of_parts}, a difference of more than {SAME_WEIGHT:.0%}; correct one of them"
         yield warning(f"weight of modules {array.id}", place, text)
     if LEAST_PRESSURE_PA <= pressure <= MOST_PRESSURE_PA:
         return
@@ -220,7 +223,7 @@ def _direction(index: int, row: Clearance, array: Array, neighbor: Shape) -> Ite
     lies = min(_FROM_DOWNSLOPE_DEG, key=lambda direction: _askew_deg(turned_deg, direction))
     if _askew_deg(turned_deg, row.direction) > MOST_ASKEW_DEG:
         text = (
-            f"direction is '{row.direction}', but {row.object} lies '{lies}' from {row.array} in"
+            f"direction is '{row.direction}', but {row.object} is {lies} of {row.array} on the"
             " plan; correct the direction, the plan, or the downslope direction"
         )
         yield warning(f"direction {spoken(row)}", Place("clearances", index, "direction"), text)
@@ -241,8 +244,14 @@ def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Findin
     for (ratio, unit), rows in by_unit.items():
         place = Place("clearances", rows[0], "provided_m")
         if unit and len(rows) >= LEAST_ALIKE:
-            text = f"{counted(len(rows), 'clearance')} are 1/{ratio:.4g} of the plan: in {unit}?"
-            text += f" The first is {spoken(data.clearances[rows[0]])}; correct them or the plan"
+            text = (
+                f"{counted(len(rows), 'clearance')} are 1/{ratio:.4g} of the distances on"
+                f" the plan; are they in {unit}?"
+            )
+            text += (
+                f" The first is {spoken(data.clearances[rows[0]])}; correct the clearances"
+                " or the plan"
+            )
             yield warning(f"clearances in {unit}", place, text)
             continue
         for index in rows:
@@ -251,7 +260,7 @@ def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Findin
                 pair(m, Quantity.SIZE, us_first, no_more) for m in (row.provided_m, short[index])
             )
             text = f"provided clearance is {stated}, but {row.array} and {row.object} are {plan}"
-            text += " apart in plan; correct it or the plan"
+            text += " apart on the plan; correct the clearance or the plan"
             yield warning(f"clearance {spoken(row)}", place, text)
 
 

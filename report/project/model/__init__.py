@@ -166,5 +166,5 @@ def linked(data: ProjectInput) -> ProjectInput:
     parts["arrays"] = arrays
     lost = [row.id for row in arrays if row.placed is None]
     if lost:
-        raise ValueError(f"no rectangle and no outline of {', '.join(lost)}")
+        raise ValueError(f"no rectangle or outline for {', '.join(lost)}")
     return data.model_copy(update=parts)

@@ -135,7 +135,7 @@ class Array(Placed):
         """The array in roof plan."""
         placed = self.placed
         if placed is None:
-            raise DefectError(f"array {self.id} has no place in plan")
+            raise DefectError(f"array {self.id} has no location on the plan")
         return placed
 
 

@@ -97,7 +97,7 @@ def open_book(path: Path) -> OpenBook:
     Raises `InputError` if there is none, or it is another type of file, damaged, or too large.
     """
     path = located(path)
-    return book_of(path, read_file(path, MAX_FILE, too_large="keep records in files beside it"))
+    return book_of(path, read_file(path, MAX_FILE, too_large="keep records in files next to it"))
 
 
 def book_of(path: Path, data: bytes) -> OpenBook:
@@ -131,10 +131,10 @@ def located(path: Path) -> Path:
         path = path / "input.xlsx"
     if not path.exists():
         check_length(path)
-        remedy = "use a workbook, or a folder that holds input.xlsx"
+        remedy = "use a workbook, or a folder that contains input.xlsx"
         raise InputError(f"no such file; {asked or _workbook_in(path.parent) or remedy}")
     if not path.is_file():
-        raise InputError("not a file; use a workbook, or a folder that holds input.xlsx")
+        raise InputError("not a file; use a workbook, or a folder that contains input.xlsx")
     if path.suffix.lower() != ".xlsx":
         kind = OTHER_KINDS.get(path.suffix.lower(), "not a workbook file name")
         raise InputError(f"{kind} ({path.suffix or 'no extension'}); {SAVE_AS}")
@@ -157,11 +157,11 @@ def _workbook_in(*folders: Path) -> str:
 
 def _zip(data: bytes) -> zipfile.ZipFile:
     if not data:
-        raise InputError("empty file; start again from a fresh workbook (roofslip new FOLDER)")
+        raise InputError("empty file; start again with a new workbook (roofslip new FOLDER)")
     # An OLE file: an .xls, or the container in which Office encrypts an .xlsx.
     if data.startswith(b"\xd0\xcf\x11\xe0"):
         if "EncryptedPackage".encode("utf-16-le") in data:
-            raise InputError("protected with a password; save it without one")
+            raise InputError("protected with a password; save it without a password")
         raise InputError(f"an old Excel workbook (.xls) by its content; {SAVE_AS}")
     return zip_of(io.BytesIO(data), f"not a workbook, or truncated; {REOPEN}")
 
@@ -189,7 +189,7 @@ def _check_sizes(archive: zipfile.ZipFile) -> None:
     if total > MAX_TOTAL or largest > MAX_MEMBER:
         raise InputError(
             f"unpacks to {total / MB:.0f} MB, more than {MAX_TOTAL // MB} MB in total or"
-            f" {MAX_MEMBER // MB} MB in one part; keep records in files beside it"
+            f" {MAX_MEMBER // MB} MB in one part; keep records in files next to it"
         )
     if total > MB and total > MAX_RATIO * packed:
         raise InputError(f"unpacks to more than {MAX_RATIO} times its size; {REOPEN}")
@@ -198,7 +198,7 @@ def _check_sizes(archive: zipfile.ZipFile) -> None:
 def _check_kind(archive: zipfile.ZipFile) -> None:
     names = set(archive.namelist())
     if any(member.flag_bits & 1 for member in archive.infolist()):
-        raise InputError("protected with a password; save it without one")
+        raise InputError("protected with a password; save it without a password")
     if any(name.lower().endswith("vbaproject.bin") for name in names):
         raise InputError(f"a workbook with macros; {SAVE_AS}")
     if "xl/workbook.bin" in names:

@@ -235,7 +235,7 @@ def number(cell: Found, remedy: str = "enter a number", unit: str = "") -> float
     # 5% in a cell of percent may be meant as 5 or as 0.05.
     if is_percentage(cell.number_format):
         raise CellError(
-            f"is a percentage ({100 * value:g}%, which Excel holds as {value:g})",
+            f"is a percentage ({100 * value:g}%, which Excel stores as {value:g})",
             f"{remedy}, formatted as a number",
         )
     if how := misleading(cell.number_format, unit):

@@ -59,7 +59,7 @@ def path_beside(
             raise
         raise InputError(f"'{name}' cannot be found; {where}") from error
     if size > max_bytes:
-        raise InputError(f"'{name}' has {size / 1e6:.0f} MB; use at most {max_bytes / 1e6:.0f} MB")
+        raise InputError(f"'{name}' is {size / 1e6:.0f} MB; use at most {max_bytes / 1e6:.0f} MB")
     return path
 
 
@@ -131,7 +131,7 @@ def _document(book: OpenBook, entry: Entry, name: str, bytes_left: int) -> Docum
     content = read_file(file, MAX_DOCUMENTS, f"'{name}'", too_large="shrink it")
     years = _years(name, content) if entry.name == "study_years" else None
     if years is None and not content.startswith(b"%PDF-"):
-        raise InputError(f"'{name}' is no PDF; attach it as a PDF")
+        raise InputError(f"'{name}' is not a PDF; attach it as a PDF")
     if len(content) > bytes_left:
         limit = f"{MAX_DOCUMENTS / 1e6:.0f} MB"
         raise InputError(f"'{name}' and the other documents have more than {limit}; shrink them")
@@ -148,6 +148,6 @@ def _years(name: str, content: bytes) -> StudyYears:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"])) or "its text"
         raise InputError(
-            f"'{name}' is no {YEARS} of a study ({where}: {first['msg']}); use the file that"
+            f"'{name}'is not a {YEARS} of a study ({where}: {first['msg']}); use the file that"
             " roofslip study writes where its workbook has a hazard curve"
         ) from error

@@ -24,7 +24,7 @@ from solver.errors import InputError, Problem
 
 MAX_COLUMNS = 200
 SCANNED_ROWS = 200
-FRESH = "copy it from a fresh workbook (roofslip new FOLDER)"
+FRESH = "copy it from a new workbook (roofslip new FOLDER)"
 _HEADING = re.compile(r"(.*?) ?(?:\[([^\[\]]*)\])?")
 _AREA = re.compile(r"(?:'((?:[^']|'')+)'|([^'!]+))!(\$?[A-Z]+\$?[0-9]+(?::\$?[A-Z]+\$?[0-9]+)?)")
 

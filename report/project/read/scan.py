@@ -73,12 +73,12 @@ class Budget:
             self.others -= 1
         if self.cells < 0:
             raise InputError(
-                f"more than {MAX_CELLS:,} cells and rows; keep records in files beside it"
+                f"more than {MAX_CELLS:,} cells and rows; keep records in files next to it"
             )
         if self.others < 0:
             raise InputError(
                 f"more than {MAX_OTHERS:,} comments, formats and the like; copy the inputs into a "
-                "fresh workbook (roofslip new FOLDER)"
+                "new workbook (roofslip new FOLDER)"
             )
 
 
@@ -209,7 +209,7 @@ def scan_parts(parts: Mapping[str, bytes]) -> dict[str, Scan]:
     tags = sum(data.count(b"<") for data in markup.values())
     if tags > MAX_TAGS:
         raise InputError(
-            f"has {tags:,} XML tags, more than {MAX_TAGS:,}; keep records in files beside it"
+            f"has {tags:,} XML tags, more than {MAX_TAGS:,}; keep records in files next to it"
         )
     budget = Budget()
     scans = {}

@@ -51,18 +51,19 @@ class Concealment(StrEnum):
 
 
 _SENTENCES: Mapping[Concealment, str] = {
-    Concealment.SHEET: "the worksheet is {state}, and {cells} on it {are} read: unhide it, or clear"
-    " what is not meant",
-    Concealment.HIDDEN: "{cells} {are} in hidden rows or columns, and {are} read: show them, or"
-    " clear what is not meant",
-    Concealment.FILTERED: "{cells} {are} in rows that a filter hides, and {are} read: clear the"
-    " filter, and delete the rows that are not meant",
-    Concealment.STRUCK: "{cells} {are} struck through, and {are} read: clear what is not meant,"
-    " and remove the strikethrough from the rest",
-    Concealment.INVISIBLE: "{cells} cannot be seen for the color of the text or the number format,"
-    " and {are} read: change it, or clear what is not meant",
+    Concealment.SHEET: "the worksheet is {state}, but {cells} on it {are} used: unhide it, or"
+    " clear the cells"
+    " that you do not want",
+    Concealment.HIDDEN: "{cells} {are} in hidden rows or columns but {are} used: unhide them, or"
+    " clear the cells that you do not want",
+    Concealment.FILTERED: "{cells} {are} in rows that a filter hides but {are} used: clear the"
+    " filter, and delete the rows that you do not want",
+    Concealment.STRUCK: "{cells} {are} struck through but {are} used: clear the cells that you do"
+    " not want, and remove the strikethrough from the others",
+    Concealment.INVISIBLE: "{cells} {are} invisible because of the text color or the number format"
+    " but {are} used: change the format, or clear the cells that you do not want",
 }
-_STATES = {"hidden": "hidden", "veryHidden": "hidden so that Excel's menu does not list it"}
+_STATES = {"hidden": "hidden", "veryHidden": "hidden so that the menu of Excel does not list it"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -274,7 +275,8 @@ def copies(
                 warned.add(title)
                 text = (
                     f"worksheets '{read}' and '{title}' both have the labels of {section.title};"
-                    f" '{read}' is read, and '{title}' is ignored: delete the one that is not meant"
+                    f" '{read}' is read, and '{title}' is ignored: delete the one that you do"
+                    " not want"
                 )
                 yield warning(f"copy {title}", Place(section.key), text)
 
@@ -302,8 +304,8 @@ def from_outside(book: OpenBook, place: Place) -> Iterator[Finding]:
     if book.outside:
         names = (cut(link).encode("ascii", "replace").decode() for link in book.outside)
         which = listed(names, _MOST_LISTED)
-        text = f"the workbook takes values from elsewhere ({which}), of which the saved ones are"
-        yield warning("outside", place, f"{text} read: type the values instead")
+        text = f"the workbook refers to other sources ({which}), whose saved values are"
+        yield warning("outside", place, f"{text} used: type the values instead")
 
 
 def not_calculated(book: OpenBook, used: Used, of_book: Place) -> Iterator[Finding]:

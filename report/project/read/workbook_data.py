@@ -112,7 +112,9 @@ class SheetOf(WorkbookSource, Generic[Whole]):
         self.refuse(())
         sections, inputs = {part.key: part for part in self.sections}, dict(self.inputs)
         if unknown := [key for key in parts if key not in sections]:
-            raise InputError(f"no input {', '.join(unknown)}; enter some of {', '.join(sections)}")
+            raise InputError(
+                f"unknown input {', '.join(unknown)}; choose from {', '.join(sections)}"
+            )
         for key, replaced in parts.items():
             rows = [replaced] if isinstance(replaced, Frozen) else list(replaced)
             try:

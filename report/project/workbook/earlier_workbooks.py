@@ -26,8 +26,8 @@ GONE: Mapping[str, tuple[GoneInput, ...]] = {
             field="directional",
             label="Displacement by direction",
             defaults=("no", "false"),
-            remedy="answer No: a clearance takes the design displacement in full, as the rule sets"
-            " state no direction",
+            remedy="select No: clearances use the full design displacement, because the rule sets"
+            " do not distinguish directions",
         ),
     ),
     "arrays": (
@@ -35,8 +35,8 @@ GONE: Mapping[str, tuple[GoneInput, ...]] = {
             field="model",
             label="Model",
             defaults=("choose",),
-            remedy="select 'choose': each run has the simplest adequate model. From Python,"
-            " solver.solve runs any",
+            remedy="select 'choose': each run uses the simplest adequate model. In Python,"
+            " solver.solve runs any model",
         ),
     ),
 }

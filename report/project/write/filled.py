@@ -84,7 +84,7 @@ class WorkbookChange:
 
     def refuse_cell(self, position: CellPosition, title: str) -> None:
         """Note that a cell is filled already."""
-        text = f"{title} is filled already; add --replace to overwrite it"
+        text = f"{title} is already filled in; use --replace to overwrite it"
         self.refusals.append(f"{position.address}: {text}")
 
     def put(self, key: str, row: int, values: Mapping[str, Value]) -> None:
@@ -139,8 +139,8 @@ class WorkbookChange:
         area = table_area(self.book, SECTION[key])
         if area and area.last < row <= area.totals:
             raise InputError(
-                f"{table.heading.sheet}!{area.totals}: the table has a row of totals, and no blank"
-                " row above it; remove the row of totals, or insert rows above it"
+                f"{table.heading.sheet}!{area.totals}: the table has a totals row with no blank"
+                " row above it; delete the totals row, or insert rows above it"
             )
         if row > top + MAX_ROWS:
             limit = f"the {MAX_ROWS} that a table may have"
@@ -193,8 +193,8 @@ def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChang
         for pattern in _OPEN_ELSEWHERE:
             if os.path.lexists(lock := path.with_name(pattern.format(path.name))):
                 raise InputError(
-                    f"{lock}: is there, so a program has the workbook open; close it there, or"
-                    " delete that file if none has"
+                    f"{lock} exists, so a program has the workbook open; close it there, or"
+                    " delete this file if no program has it open"
                 )
         change = WorkbookChange(open_book(path))
         yield change
@@ -289,7 +289,7 @@ def withdrawn(change: WorkbookChange) -> list[str]:
     where = ", ".join(position.address for position in emptied)
     by = ", ".join(str(value) for value in [*stated.values()][:2])
     return [
-        f"{where}: 'Drawing distances confirmed by {by}' is taken out: distances from the drawing"
+        f"{where}: 'Drawing distances confirmed by {by}' was cleared: distances from the drawing"
         " have changed; confirm them again"
     ]
 

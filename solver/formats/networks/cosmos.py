@@ -121,7 +121,7 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
         if _FIRST.match(line) and index not in filled:
             yield (
                 f"{source.at(index)}: found a heading without a line ... pts, approx ... secs and"
-                " values; use the whole file"
+                " values; use the complete file"
             )
     for part in {part.first: part for part in reversed(series)}.values():
         starts: list[tuple[int, int, str]] = []

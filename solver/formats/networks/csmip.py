@@ -101,7 +101,7 @@ def recognizes(source: Source) -> bool:
 def read(source: Source) -> MotionFile:
     """Read the accelerations of all channels of a file."""
     if _VOLUME_3.match(source.line(0)):
-        raise InputError(f"{source.at(0)}: found spectra; use a file of volume 1 or 2")
+        raise InputError(f"{source.at(0)}: found spectra; use a volume 1 or 2 file")
     volume = _TWO if _VOLUME_2.match(source.line(0)) else _ONE
     # RENADIC of Chile writes volume 1 of CSMIP, and says so in its text.
     text = " ".join(source.lines[: volume.text]).upper()
@@ -130,7 +130,7 @@ def _channel(source: Source, part: range, volume: _Volume) -> Record:
     else:
         raise InputError(
             f"{source.at(part.start)}: found no line ... POINTS OF ACCEL DATA EQUALLY SPACED AT"
-            " ...; use the whole file"
+            " ...; use the complete file"
         )
     peak_index, peak = _search(source, part, volume.peak) or (part.start, None)
     peak_mps2 = printed(peak[1], peak_index).value * unit_size(peak[2]) if peak else 0.0
@@ -151,7 +151,7 @@ def _values_of_one(source: Source, part: range) -> Record:
     if not points or not unit:
         missing = "NO. OF POINTS" if not points else "UNITS OF UNCOR ACCEL"
         raise InputError(
-            f"{source.at(part.start)}: found no line {missing} = ...; use the whole file"
+            f"{source.at(part.start)}: found no line {missing} = ...; use the complete file"
         )
     scale = source.scale(unit[1][1], unit[0])
     first = part.start + _ONE.heading
@@ -188,7 +188,7 @@ def _even_values(
     if index - part.start != volume.heading:
         raise InputError(
             f"{source.at(index)}: found {index - part.start} lines of heading above this one, where"
-            f" the format has {volume.heading}; use the whole file"
+            f" the format has {volume.heading}; use the complete file"
         )
     layout = layout_of(line[4]) if line[4] else (None if volume is _ONE else _REAL)
     if line[4] and not layout:

@@ -65,7 +65,7 @@ def _component(source: Source, part: range, is_raw: bool) -> Record:
     count = integers[_ACCELERATIONS - 1]
     if not 0.0 <= count.value < 1e8:
         raise InputError(
-            f"{source.at(count.index)}: found no number of accelerations; use the whole file"
+            f"{source.at(count.index)}: found no number of accelerations; use the complete file"
         )
     dt_s = source.step(_step(source, part, real[_STEP - 1]))
     scale = _scale(source, part)
@@ -136,4 +136,4 @@ def _rest(source: Source, part: range, integers: Sequence[Stated]) -> tuple[str,
     if end <= part.stop:
         channels.check_only_blank(source, end, part.stop, "the values of a component")
         return ()
-    return ("velocities or displacements are incomplete: the file may be truncated",)
+    return ("velocities or displacements are incomplete; the file may be truncated",)

@@ -56,7 +56,9 @@ def _csv(source: Source, top: int) -> MotionFile:
     heads = [text.strip() for text in source.lines[top].split(",")]
     rows = [(i, row.split(",")) for i, row in enumerate(source.lines) if i > top and row.strip()]
     if len(rows) < 2:
-        raise InputError(f"{source.at(top)}: found {len(rows)} rows below it; use the whole file")
+        raise InputError(
+            f"{source.at(top)}: found {len(rows)} rows below it; use the complete file"
+        )
     table = dated_table(source, rows, len(heads))
     lines = [index for index, _ in rows]
     check_last(source, rows[-1][0], [fields[-1].strip() for _, fields in rows[-COMPARED:]])
@@ -91,7 +93,7 @@ def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
     words = f"the heading states {stated_s:g} s, the record lasts {length_s:g} s"
     # Whole seconds hide less than one; more is a file that was cut.
     if abs(stated_s - length_s) >= 1.0:
-        raise InputError(f"{source.at(index + 1)}: {words}; use the whole file")
+        raise InputError(f"{source.at(index + 1)}: {words}; use the complete file")
     return (words,)
 
 
@@ -122,7 +124,7 @@ def _entry(source: Source, *names: str) -> tuple[str, int]:
         for name in names:
             if line.startswith(name):
                 return line[len(name) :].strip(), index
-    raise InputError(f"{source.name}: found no line {names[0]}; use the whole heading")
+    raise InputError(f"{source.name}: found no line {names[0]}; use the complete heading")
 
 
 def _number(source: Source, name: str) -> Stated:

@@ -80,7 +80,7 @@ def read(source: Source) -> MotionFile:
 
 
 def _damaged(source: Source, form: str) -> InputError:
-    return InputError(f"{source.name}: damaged or cut {_NAMES[form]}; use the whole file")
+    return InputError(f"{source.name}: damaged or truncated {_NAMES[form]}; use the complete file")
 
 
 def _channel(source: Source, obspy: Any, trace: Any) -> Record:
@@ -91,7 +91,7 @@ def _channel(source: Source, obspy: Any, trace: Any) -> Record:
             f"{source.name}: {trace.id} has {quantity or 'text'}; use a record of acceleration"
         )
     if not np.isfinite(trace.data).all():
-        raise InputError(f"{source.name}: {trace.id} has values that are no numbers")
+        raise InputError(f"{source.name}: {trace.id} has values that are not numbers")
     values: Floats = trace.data.astype(np.float64)
     delta_s = float(trace.stats.delta)
     if sac:  # ObsPy rounds it to microseconds
@@ -108,7 +108,7 @@ def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[floa
     is_whole = bool((values == np.rint(values)).all())
     if not source.response and not is_whole:
         return source.stated_scale(()), ()
-    notes = () if is_whole else ("the samples are no whole numbers, and are read as counts",)
+    notes = () if is_whole else ("the samples are not whole numbers and are read as counts",)
     if not source.response or not math.isnan(source.counts_per_mps2):
         return source.counts_scale(f"{source.name}: found {trace.id}"), notes
     inventory = _inventory(source, obspy)
@@ -125,7 +125,7 @@ def _orientation(inventory: Any, trace: Any) -> tuple[float, tuple[str, ...]]:
     azimuth, dip = about["azimuth"], about["dip"]
     if dip is not None and abs(abs(dip) - 90.0) <= _PLUMB_DEG:
         # FDSN StationXML: the dip is down from the horizontal.
-        note = f"its dip is {dip:g} deg, positive downward: the sign is turned"
+        note = f"its dip is {dip:g} deg, positive downward: the sign is reversed"
         return (-1.0, (note,)) if dip > 0.0 else (1.0, ())
     note_text = f"its azimuth is {azimuth} deg, its dip {dip} deg"
     return 1.0, () if azimuth is None and dip is None else (note_text,)

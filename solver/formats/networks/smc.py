@@ -86,7 +86,7 @@ def _block(source: Source, integers: Sequence[Stated]) -> tuple[Block, tuple[str
     for number, meaning in ((comments, "lines of comment"), (count, "values")):
         if not 0.0 <= number.value < 1e8:
             raise InputError(
-                f"{source.at(number.index)}: found no number of {meaning}; use the whole file"
+                f"{source.at(number.index)}: found no number of {meaning}; use the complete file"
             )
     heading = _TEXT + _WHOLE.lines(_WHOLES) + _REAL.lines(_REALS)
     first = heading + int(comments.value)
@@ -94,7 +94,7 @@ def _block(source: Source, integers: Sequence[Stated]) -> tuple[Block, tuple[str
         if not source.lines[index].startswith("|"):
             raise InputError(
                 f"{source.at(index)}: found a line without | among the {comments.value:.0f} lines"
-                " of comment; use the whole file"
+                " of comment; use the complete file"
             )
     further = 0
     while source.line(first + further).startswith("|"):
@@ -113,14 +113,14 @@ def _uneven(source: Source, block: Block, scale: float) -> Record:
     # As in many records of film: the rest of another piece.
     if fields and sum(fields[:last]) == block.count:
         line = block.first + last
-        notes = (f"line {line + 1} is beyond the {block.count} values stated, and is left out",)
+        notes = (f"line {line + 1} is beyond the {block.count} values stated, and is skipped",)
         block = replace(block, stop=line)
     values = fixed_rows(source, block, _VALUES)
     # Files state the number of values; one that states the number of pairs is not truncated.
     if len(values) not in (block.count, 2 * block.count):
         raise InputError(
             f"{source.at(block.promised)}: states {block.count} values, found {len(values)};"
-            " use the whole file"
+            " use the complete file"
         )
     rows = []
     for index, number in enumerate(fields[: block.stop - block.first], block.first):
@@ -137,7 +137,7 @@ def _uneven(source: Source, block: Block, scale: float) -> Record:
     if len(times) < len(pairs) and (np.diff(pairs[:, 0]) >= 0.0).all():
         means = np.add.reduceat(pairs[:, 1], first) / count
         repeated = len(pairs) - len(times)
-        notes += (f"times that stand twice: {repeated}; the mean of their values is taken",)
+        notes += (f"repeated times: {repeated}; the mean of their values is used",)
         pairs, rows = np.column_stack((times, means)), [rows[i] for i in first]
     dt_s, columns, resampling = sampled(source, pairs[:, 0], pairs[:, 1:].T, rows.__getitem__)
     return Record(name="", dt_s=dt_s, a_mps2=columns[0] * scale, notes=(*notes, *resampling))

@@ -131,7 +131,7 @@ def test_beside_no_permitted_route_other_clearances_keep_their_verdicts(unpermit
 
 
 CIRCUMSCRIBED = 1.0 / math.cos(math.pi / 24)
-"""Of a circle, its polygon of 24 sides around it: 0.9 % outside."""
+"""Of a circle, its polygon of 24 sides around it: 0.9% outside."""
 
 
 @pytest.fixture(scope="module")

@@ -77,7 +77,7 @@ def test_a_typed_name_alone_removes_no_floor_and_turns_no_clearance_ok():
     assert "until then the floor of the analysis procedure applies" in said.remedy
     text = page_of(named, "basis")
     assert (
-        "The peer review entered does not count (Section 1); the floor in Section 2 applies."
+        "The peer review entered is not accepted (Section 1); the floor in Section 2 applies."
         in text
     )
     assert "removed by peer review" not in page_of(named, "summary")
@@ -181,8 +181,8 @@ def test_whether_there_is_a_fire_pathway_is_asked_of_each_clearance():
         return asked.verdict, asked.found
 
     for answered in gaps[:2]:
-        assert found(answered, near) == (Verdict.OK, "answered")
-    without = Verdict.CONDITION, "1 clearance without an answer"
+        assert found(answered, near) == (Verdict.OK, "entered")
+    without = Verdict.CONDITION, "1 clearance without an entry"
     assert found(gaps[2], near) == without
     assert found(gaps[0]) == without  # to RTU-1
 
@@ -320,7 +320,7 @@ def test_a_clearance_that_five_percent_less_friction_breaks_is_a_condition():
     assert done.clearances[0].ok
     assert not done.at_reduced_friction.clearances[0].ok
     assert row(done, "clearance_less_friction").verdict is Verdict.CONDITION
-    assert "5 % less friction" in row(done, "clearance_less_friction").title
+    assert "5% less friction" in row(done, "clearance_less_friction").title
 
 
 @pytest.mark.parametrize("provided", [None, 6.0])
@@ -384,11 +384,11 @@ def test_a_route_that_five_percent_less_friction_closes_is_a_note(mu, is_closed)
     found = row(assessed(assessments.level(), arrays=arrays, clearances=[]), "less_friction")
     assert found.is_satisfied is not is_closed
     if is_closed:
-        assert found.title == "The prescriptive procedure with 5 % less friction"
+        assert found.title == "The prescriptive procedure with 5% less friction"
         assert found.verdict is Verdict.NOTE
         assert found.found == "not permitted with μ = 0.389"
         assert (
-            found.remedy == "The procedure is permitted as entered but not with 5 % less friction."
+            found.remedy == "The procedure is permitted as entered but not with 5% less friction."
         )
 
 

@@ -28,8 +28,8 @@ def law(slow, fast, rate, static=None):
     ("friction", "words"),
     [
         (coulomb(0.475), "0.475"),
-        (law(0.5, 0.425, 20.0), "0.50 to 0.425 with velocity"),
-        (law(0.4, 0.5, 20.0, 0.45), "0.40 to 0.50 with velocity, 0.45 at rest"),
+        (law(0.5, 0.425, 20.0), "0.50–0.425 (velocity-dependent)"),
+        (law(0.4, 0.5, 20.0, 0.45), "0.40–0.50 (velocity-dependent), 0.45 at rest"),
         (law(0.4, 0.4, 0.0, 0.45), "0.40, 0.45 at rest"),
     ],
 )
@@ -42,8 +42,8 @@ def test_friction_is_said_as_it_was_run(friction, words):
 def test_arrays_of_one_friction_and_the_low_velocity_coefficient_are_said():
     alike = [projects.array("A1", 0.5), projects.array("A2", 2.0)]
     data = projects.project(arrays=[*alike, projects.array("A3", 3.0, **LAW)])
-    assert mus_words(data.arrays) == "A1, A2: 0.45; A3: 0.40 to 0.50 with velocity"
-    assert mus_words(data.arrays[2:]) == "A3: 0.40 to 0.50 with velocity"
+    assert mus_words(data.arrays) == "A1, A2: 0.45; A3: 0.40–0.50 (velocity-dependent)"
+    assert mus_words(data.arrays[2:]) == "A3: 0.40–0.50 (velocity-dependent)"
     given = projects.project(arrays=[projects.array("A1", 3.0, mu_static=0.48, **LAW)]).arrays[0]
     assert at_low_velocity(given).friction == coulomb(0.40)
     assert at_low_velocity(given).slope_rad == given.slope_rad
@@ -205,7 +205,7 @@ def test_nothing_is_beyond_fast_tests_or_where_nothing_slides():
 def test_tests_without_velocities_or_none_are_conditions():
     row = rows(one(0.44, tests=runs(0.45, None)))["A1"]
     assert row.verdict is Verdict.CONDITION
-    assert row.found.endswith("smallest tested 0.450; tests not complete")
+    assert row.found.endswith("smallest tested 0.450; tests incomplete")
     assert "; velocities tested not entered; μ above the tested range 0.440" in row.found
     row = rows(one())["A1"]
     assert row.verdict is Verdict.CONDITION
@@ -227,7 +227,7 @@ def test_friction_beyond_the_tests_needs_complete_ones_that_are_not_far_slower()
         tests = [test for test in runs(0.45, 0.9 * fastest, count) if test["surface"] in surfaces]
         row = rows(one(0.40, tests=tests))["A1"]
         assert row.is_satisfied is is_met
-        assert ("; tests not complete" in said(row)[0]) is not is_met
+        assert ("; tests incomplete" in said(row)[0]) is not is_met
 
 
 def test_a_coefficient_below_the_tested_mean_is_no_worse_than_at_it():
@@ -264,7 +264,7 @@ def test_friction_beyond_is_the_largest_of_any_velocity_that_may_be():
         assert check(coulomb(mu), 1.0, (0.1, 0.46)).is_satisfied is satisfied
     up = tuple(replace(motion, az_mps2=2.0 * motion.ax_mps2) for motion in MOTIONS)
     row = rows(one(slope=0.5, tests=runs(0.40), shaking=up))["A1"]
-    assert "no velocity from one of the runs; tested to" in said(row)[0]
+    assert "no velocity from one run; tested to" in said(row)[0]
     assert not row.is_satisfied
 
 

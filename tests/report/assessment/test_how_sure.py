@@ -197,6 +197,6 @@ def test_friction_is_changed_by_five_percent_and_all_motions_run_again(unfloored
     rows = page.table("Design displacement with").rows
     for name, assessed in (("less", evidence.at_reduced_friction),
                            ("more", evidence.at_increased_friction)):  # fmt: skip
-        shown = [row[f"5 % {name} [in]"].rstrip("†") for row in rows]
+        shown = [row[f"5% {name} [in]"].rstrip("†") for row in rows]
         assert shown == [inches_up(array.design_m) for array in assessed.arrays]
     assert evidence.at_reduced_friction is scene.assessment.at_reduced_friction

@@ -89,7 +89,7 @@ def test_the_larger_displacement_or_the_prescriptive_one_decides(done):
 def test_a_gap_of_the_plan_that_contradicts_the_clearance_by_an_inch_is_named(
     done, provided, is_named
 ):
-    rows = [projects.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
+    rows = [projects.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart on the plan
     neighbor = by_pair(having(done, clearances=rows))["A1", "RTU-1"]
     assert bool(neighbor.contradictions) is is_named
     assert len(neighbor.shortcomings()) == is_named
@@ -102,7 +102,7 @@ def test_a_gap_of_the_plan_that_contradicts_the_clearance_by_an_inch_is_named(
     [(4.0, 84.0, Cover.AS_IN_PLAN), (0.1, 90.0, Cover.DIFFERS), (0.1, 84.0, Cover.BEYOND)],
 )
 def test_a_clearance_covers_a_neighbor_as_the_plan_has_it(done, design_ft, provided, cover):
-    rows = [projects.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart in plan
+    rows = [projects.clearance("A1", "RTU-1", provided * INCH)]  # 7 ft apart on the plan
     neighbor = by_pair(having(done, design_m=design_ft * FT, clearances=rows))["A1", "RTU-1"]
     assert (neighbor.cover, [row.number for row in neighbor.given]) == (cover, [1])
     alone = by_pair(having(done, design_m=4 * FT, clearances=[]))["A1", "RTU-1"]

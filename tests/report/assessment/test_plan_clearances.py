@@ -170,7 +170,7 @@ def test_motions_run_where_they_can_and_else_the_reason_is_given(tmp_path):
     path = make(tmp_path, **BARE)
     (tmp_path / "records" / "x2.csv").unlink()
     output = fill(tmp_path)
-    assert cell_address("the motions cannot be run: <Motions/M2/Horizontal record>: ") in output
+    assert cell_address("cannot run the motions: <Motions/M2/Horizontal record>: ") in output
     assert "reach 163.2 in (4144 mm), twice the prescriptive displacement\n" in output
     assert len(read(path).inputs["clearances"]) == 2
 
@@ -352,7 +352,7 @@ def test_confirmed_distances_stay_until_other_ones_are_written(tmp_path):
     said = cell_address(
         "<Project/Drawing distances confirmed by>, <Project/Drawing distances confirmed on>,"
         " <Project/Drawing distances covered>: 'Drawing distances confirmed by RG, 2025-11-18' is"
-        " taken out: distances from the drawing have changed; confirm them again"
+        " was cleared: distances from the drawing have changed; confirm them again"
     )
     assert said in fill(tmp_path).splitlines()
     issue = read(path).project.project

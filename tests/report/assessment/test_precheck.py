@@ -71,17 +71,17 @@ def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledg
     assert {finding.id for finding in listed} == {""}
     found = {finding.place: finding.text for finding in listed}
     assert found[Place("site", 0, "risk_category")] == (
-        "NG. Risk category, I = 1 to IV = 4: 4. Required: at most 3† (PV1-2012†)."
+        "NG. Risk Category (I = 1 to IV = 4): 4. Required: at most 3† (PV1-2012†)."
     )
     assert found[Place("site", 0, "stories")] == (
         "NG. Number of stories: 7. Required: at most 6† (PV1-2012†)."
     )
     slope = Place("arrays", 0, "slope_value")
     assert [finding.text for finding in listed if finding.place == slope] == [
-        "NG. Roof slope, any ballasted system, A1: 8.00° (14.1 %). "
-        "Required: at most 4.76° (8.3 %)† (IBC 1613.3†).",
-        "NG. Roof slope, analysis procedure, A1: 8.00° (14.1 %). "
-        "Required: at most 7.00° (12.2 %)† (PV1-2012†).",
+        "NG. Roof slope, any ballasted system, A1: 8.00° (14.1%). "
+        "Required: at most 4.76° (8.3%)† (IBC 1613.3†).",
+        "NG. Roof slope, analysis procedure, A1: 8.00° (14.1%). "
+        "Required: at most 7.00° (12.2%)† (PV1-2012†).",
     ]
 
 
@@ -92,7 +92,7 @@ def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledg
             "two motions on a slope that only analysis permits",
             "Number of motions: 2. Required: at least 3†",
         ),
-        ("no vertical, no test report, no fire lane", "two horizontal and the vertical together"),
+        ("no vertical, no test report, no fire lane", "two horizontal and one vertical"),
     ],
 )
 def test_too_few_motions_and_no_vertical_are_said_at_the_motions(case, text):

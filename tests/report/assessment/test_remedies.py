@@ -106,7 +106,7 @@ def test_of_several_causes_the_smallest_set_is_printed_as_one_remedy():
     done = altered_projects.assessed("two causes and a slope")
     found = remedies(done)
     assert (found.together, found.done) == ((), None)
-    assert [*remedy_lines(done, found)][-1] == "No combination of these changes is enough."
+    assert [*remedy_lines(done, found)][-1] == "No combination of these changes is sufficient."
 
 
 def test_a_displacement_by_peer_review_is_that_of_each_array_by_its_name():
@@ -123,7 +123,7 @@ def test_where_the_motions_do_not_permit_an_analysis_motions_that_do_are_named()
     for name, lack in (
         ("two motions", "number of motions (2, at least 3†)"),
         ("overrides", "the statistic 'mean' requires at least 11 motions; 7 are listed"),
-        ("motions without vertical", "vertical together (2, at least 3†)"),
+        ("motions without vertical", "one vertical (2, at least 3†)"),
     ):
         done = altered_projects.assessed(name)
         words = without_analysis(done)
@@ -386,7 +386,7 @@ def test_peer_review_is_offered_where_it_removes_a_floor_that_governs_and_only_t
     given = beside(x=102.5)
     (found,) = of_kind(given, RemedyKind.REVIEW)
     assert found.words == (
-        "Have the analysis peer reviewed: design displacement of A1 3.9 in (98 mm) instead of "
+        "Obtain a peer review of the analysis: design displacement of A1 3.9 in (98 mm) instead of "
         "40.8 in (1036 mm)"
     )
     reviewed = beside(x=102.5, options=PEER)

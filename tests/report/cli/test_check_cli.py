@@ -39,7 +39,7 @@ def test_check_prints_each_warning_with_its_reason_also_as_json(tmp_path):
     weight = with_text("[weight A1]", lines)
     assert weight.startswith(cell_address("warning: <Arrays/A1/Weight>: weight is 30 lb"))
     assert weight.endswith("[weight A1] Acknowledged: Frames alone, ballast by others")
-    components = cell_address("note: <Motions/heading/ID>: Number of components of each motion")
+    components = cell_address("note: <Motions/heading/ID>: Components per motion")
     assert any(line.startswith(components) for line in lines)
     done = run("check", "--quiet", make(tmp_path))
     assert (done.exit_code, done.output) == (0, "")
@@ -62,7 +62,7 @@ def test_check_alone_says_that_a_package_is_dated_in_the_future(tmp_path):
     folder = make(tmp_path, project=issue)
     assert with_text("after today", stdout_of("check", folder).splitlines()) == (
         f"note: {cell_address('Project/Date')}: date is 9999-01-01, after today, {dt.date.today()};"
-        " correct it if that is not intended"
+        " correct it if this is not intended"
     )
     sheet = read_workbook(folder)
     assert not any(
@@ -117,7 +117,7 @@ def test_a_steep_roof_is_ng_with_its_value_and_limit_everywhere(steep, reported,
     (of_the_array,) = (line for line in lines if line.startswith("A1 "))
     assert "NG: roof slope, any ballasted system (D/C 1.68) and " in of_the_array
     assert (
-        "NG: Roof slope, any ballasted system, A1: 8.00° (14.1 %). Required: at most 4.76° (8.3 %)†"
+        "NG: Roof slope, any ballasted system, A1: 8.00° (14.1%). Required: at most 4.76° (8.3%)†"
         " (IBC 1613.3†)."
     ) in lines
     assert any("[weight A1] Acknowledged: Frames alone" in line for line in lines)

@@ -84,7 +84,7 @@ def test_new_writes_a_workbook_or_the_example_and_never_overwrites_one(tmp_path)
         for part in set(parts) - {"docProps/core.xml"}:
             assert one.read(part) == other.read(part), part
     told = stdout_of("check", made)
-    assert "no problems found. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
+    assert "no errors. 3 arrays, 6 clearances, 7 motions, S_DS 1.566 g" in told
 
 
 def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypatch):
@@ -95,7 +95,7 @@ def test_input_errors_and_failed_runs_leave_the_older_package(tmp_path, monkeypa
     former = tmp_path / "issued.json"
     former.write_bytes(b'{"schema_version": 2, "arr')
     told = errors_of("report", tmp_path / "no-such-project", "--since", former)
-    assert "issued.json: is no results.json or is damaged" in told
+    assert "issued.json: not a results.json file, or damaged" in told
     assert not (tmp_path / "out").exists()
     monkeypatch.setattr("report.making.pages", lambda *_: 1 / 0)
     done = run("report", make(tmp_path))
@@ -175,7 +175,15 @@ VERDICT = "\x1b[31m\x1b[1mNG\x1b[0m"
 def test_the_help_lists_every_command_under_a_title_with_its_whole_first_sentence():
     lines = stdout_of("--help").splitlines()
     titles = [line[:-1] for line in lines if re.fullmatch(r"[A-Z]\w+:", line)]
-    assert titles == ["Options", "Package", "Sheet", "Motions", "Studies", "Trust", "Installation"]
+    assert titles == [
+        "Options",
+        "Package",
+        "Workbook",
+        "Motions",
+        "Studies",
+        "Trust",
+        "Installation",
+    ]
     words = " ".join(" ".join(lines).split())
     for name, command in main.every().items():
         first = " ".join(command.help.partition("\n\n")[0].split())
@@ -263,7 +271,7 @@ def test_with_everything_installed_it_says_so():
     assert any(re.match(r"test page +[\d,]+ bytes", line) for line in lines)
     # 0.1 g x 0.8^2 / 6, in closed form.
     assert any(line.startswith("test run") and "0.104604267 m" in line for line in lines)
-    assert lines[-1] == "Everything that a package needs is here."
+    assert lines[-1] == "Everything needed to create a package is installed."
 
 
 def test_missing_packages_and_libraries_are_named(monkeypatch):
@@ -277,7 +285,7 @@ def test_missing_packages_and_libraries_are_named(monkeypatch):
     monkeypatch.setattr("report.cli.installation_check.requires", lambda _: needed)
     done = run("doctor")
     assert done.exit_code == 1
-    assert "no-such-package: install it" in done.stderr
+    assert "no-such-package: run ./roofslip, which installs it" in done.stderr
     assert "other-package" not in done.output
 
 
@@ -295,4 +303,4 @@ def test_a_broken_renderer_or_solver_is_a_finding(monkeypatch):
     done = run("doctor")
     assert done.exit_code == 1
     assert re.search(r"test run +fails: 0\.100000000 m", done.stdout)
-    assert done.stderr.startswith("Error: test run: remove .venv and run ./roofslip again")
+    assert done.stderr.startswith("Error: test run: delete .venv and run ./roofslip again")

@@ -92,10 +92,12 @@ def test_values_across_the_lines_and_a_zip_in_a_zip_are_read(tmp_path):
             archive.write(RECORD, f"M-{axis}.csv")
     with zipfile.ZipFile(outer, "w") as archive:
         archive.writestr("part.zip", inner.getvalue())
-    assert "--without-vertical takes the two" in refused("rows", outer)
+    assert "--without-vertical uses the two" in refused("rows", outer)
     told = printed("rows", outer, "--without-vertical")
     assert "part/M-x.csv  horizontal x" in told
-    assert "note: M: without a vertical record. Motions for analysis have two horizontal" in told
+    assert (
+        "note: M: no vertical record. The analysis procedure requires motions with two horizontal"
+    ) in told
 
 
 def test_info_prints_a_table_for_people_and_never_over_a_record(column):
@@ -230,7 +232,10 @@ def test_a_vertical_with_gravity_in_it_is_refused(tmp_path, factor):
     path = tmp_path / "z.csv"
     path.write_text("time_s,acceleration_g\n" + "\n".join(still) + "\n")
     told = slide_refused(path, *PLACE)
-    assert "z.csv: has a mean of about 1 g: gravity is in it; subtract the mean" in told
+    assert (
+        "z.csv: the mean is about 1 g because the record includes gravity; subtract the mean"
+        in told
+    )
 
 
 def test_the_errors_of_all_records_are_reported_together(tmp_path):

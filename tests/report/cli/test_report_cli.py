@@ -47,9 +47,9 @@ def test_a_project_that_fails_stops_no_other(tmp_path):
     assert (tmp_path / "one" / "out" / "calc-package.pdf").is_file()
     assert not (tmp_path / "two" / "out").exists()
     record = cell_address("Motions/M1/Horizontal record")
-    assert f"{tmp_path / 'two'}: 1 problem found.\n  {record}: horizontal record: " in done.stderr
+    assert f"{tmp_path / 'two'}: 1 error:\n  {record}: horizontal record: " in done.stderr
     assert "x.csv:2: found 'abc'" in done.stderr
-    assert f"{tmp_path / 'none'}: 1 problem found.\n  no such file" in done.stderr
+    assert f"{tmp_path / 'none'}: 1 error:\n  no such file" in done.stderr
     as_json = run("report", tmp_path / "none", tmp_path / "none", "--json")
     assert (as_json.exit_code, as_json.stderr) == (2, "")
     assert "no such file" in json.loads(as_json.stdout)["projects"][0]["errors"][0]
@@ -125,7 +125,9 @@ def test_workbooks_of_one_folder_are_written_to_folders_of_their_own(tmp_path):
         done = run("report", tmp_path, tmp_path / "b.xlsx", book)
         assert (refused.exit_code, done.exit_code) == (2, 0)
         stdout_of("report", tmp_path / "b.xlsx", "--out", tmp_path / "out" / "input")
-    assert f"{tmp_path / 'out'}: has the results of input.xlsx, not of b.xlsx;" in refused.stderr
+    assert (
+        f"{tmp_path / 'out'}: contains the results of input.xlsx, not of b.xlsx;"
+    ) in refused.stderr
     assert "--out" in refused.stderr
     assert (tmp_path / "out" / "results.json").read_bytes() == before
     first = f"{tmp_path / 'out' / 'calc-package.pdf'} and 4 more are from an earlier run ("
@@ -180,7 +182,9 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     path = confirmed(tmp_path)
     says = open_book(path).calculation
     output = stdout_of("report", path)
-    assert f"{path}: {cell_address(PLACES)}: what was confirmed is on record" in output.splitlines()
+    assert (
+        f"{path}: {cell_address(PLACES)}: the confirmed inputs were recorded" in output.splitlines()
+    )
     sheet = read(path)
     assert sheet.project.site.hazard_covered.startswith("2026-02-20: Site ")
     assert sheet.project.options.peer_covered.startswith("2026-03-01: Site ")
@@ -213,7 +217,7 @@ def test_a_workbook_that_is_not_to_be_written_stays_as_it_is(tmp_path, monkeypat
     make_package(path, None, None, lambda _: None, on_record=lines.append)
     assert path.read_bytes() == before
     (line,) = lines
-    assert line.endswith("not put on record: the workbook is read-only, or was saved meanwhile")
+    assert line.endswith("not recorded: the workbook is read-only, or was saved in the meantime")
     monkeypatch.undo()
     path = confirmed(tmp_path)
     beside = path.with_name("~$input.xlsx")
@@ -223,7 +227,7 @@ def test_a_workbook_that_is_not_to_be_written_stays_as_it_is(tmp_path, monkeypat
     assert path.read_bytes() == before
     (line,) = (line for line in output.splitlines() if "on record" in line)
     assert line.startswith(
-        f"{path}: {cell_address(PLACES)}: what was confirmed is not put on record: "
+        f"{path}: {cell_address(PLACES)}: the confirmed inputs were not recorded: "
     )
     assert "a program has the workbook open" in line
     stdout_of("verify-package", tmp_path / "out" / "calc-package.pdf")

@@ -29,11 +29,14 @@ TOKEN = "a-token-of-twenty-letters"
 
 
 def test_a_host_needs_a_token_and_a_port_that_is_taken_and_a_missing_package_are_named(monkeypatch):
-    assert "--host needs --token-file" in errors_of("serve", "--host", "127.0.0.1")
+    assert "--host requires --token-file" in errors_of("serve", "--host", "127.0.0.1")
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         told = errors_of("serve", "--no-browser", "--port", port)
-    assert f"Port {port} of 127.0.0.1 is in use: end what uses it, or use another --port." in told
+    assert (
+        f"Port {port} of 127.0.0.1 is in use: stop the program that uses it, or use another --port."
+        in told
+    )
     assert "Address already in use" not in told
     monkeypatch.setitem(sys.modules, "uvicorn", None)
     assert "install the extra web" in errors_of("serve", "--no-browser")
@@ -122,7 +125,7 @@ def test_on_a_terminal_enter_prints_another_address_and_an_interrupt_ends_all():
         _, told = server.communicate(timeout=30)
         os.close(here)
         os.close(there)
-    assert told.strip() == "Press Enter for another address, Ctrl+C to end."
+    assert told.strip() == "Press Enter for another address, or Ctrl+C to stop."
     assert server.returncode == 0
 
 

@@ -58,7 +58,7 @@ def no_files():
 def test_serve_says_where_no_disk_has_room_for_its_folder():
     done = roofslip("serve", "--once", "--port", "0", preexec_fn=no_files)
     assert done.returncode == 2
-    words = "serve: 1 problem found.\n  a file cannot be written or read (No "
+    words = "serve: 1 error:\n  a file cannot be written or read (No "
     assert words in done.stderr
     assert "free disk space" in done.stderr
 
@@ -118,8 +118,10 @@ def test_no_command_starts_beside_settings_of_numba(tmp_path, kind):
     assert {"report", "plan,read", "motion,suite", "completion"} <= {words for words, _ in ended}
     told = done.stderr.splitlines()
     assert len(told) == len(ended)
-    assert all(line.startswith(f"{settings}: this file can make the compiler ") for line in told)
-    assert "remove it, or change to another folder" in told[0]
+    assert all(
+        line.startswith(f"{settings}: this file can make numba, the compiler ") for line in told
+    )
+    assert "delete it, or change to another folder" in told[0]
 
 
 @pytest.mark.nightly
@@ -218,7 +220,7 @@ def test_ctrl_c_ends_with_130_and_one_line(tmp_path):
     finally:
         work.kill()
     said = [line for line in err.splitlines() if not line.startswith("[")]
-    assert (work.returncode, out, said) == (130, "", ["Interrupted: the work was cut off."])
+    assert (work.returncode, out, said) == (130, "", ["Interrupted before the end."])
 
 
 CUT_OFF_IN_COMPILED_CODE = """
@@ -238,7 +240,7 @@ main(["work"])
 def test_ctrl_c_that_a_library_turns_into_its_own_error_is_still_ctrl_c():
     done = python("-c", CUT_OFF_IN_COMPILED_CODE, preexec_fn=hearing(signal.SIGINT))
     assert (done.returncode, done.stdout) == (130, "")
-    assert done.stderr == "Interrupted: the work was cut off.\n"
+    assert done.stderr == "Interrupted before the end.\n"
 
 
 @pytest.mark.nightly
@@ -308,7 +310,7 @@ def test_a_name_defined_off_the_sheet_is_no_name(tmp_path):
         (
             "1e100",
             0.01,
-            "the values reach 1e+100 g, and no ground or roof shakes with 10 g: is it cm/s2?",
+            "the values reach 1e+100 g, which is more than 10 g; are they in cm/s2?",
         ),
         ("0.1", 1e200, "time step"),
         ("0.1", 11.0, "time step"),

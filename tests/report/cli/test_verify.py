@@ -174,7 +174,7 @@ def test_every_check_and_the_papers_figures_are_printed_and_in_the_table(verific
             + f"{error_text.scientific(row.error)} {error_text.scientific(row.tolerance)} PASS"
         )
         assert line in words, line
-    for percent in ("6.78 %", "1.69 %", "0.48 %"):
+    for percent in ("6.78%", "1.69%", "0.48%"):
         assert percent in words
     assert "1000 mm at θ = 4°, μ = 0.5; μ ≥ 0.55 at θ = 2° for 500 mm" in words
     for comparison in verification.links:
@@ -216,7 +216,7 @@ def test_failed_cells_and_runs_are_counted_and_not_drawn(
     assert f"Failed: {count} of {failed.size} cells." in words
     svg = made["charts/stability-1.svg"].decode()
     assert svg.count('fill="url(#') >= count
-    for text in ("failed", "1 to 10 %", "more than 10 %", "theoretical limit"):
+    for text in ("failed", "1 to 10%", "more than 10%", "theoretical limit"):
         assert f">{text}<" in svg
 
 
@@ -277,10 +277,10 @@ def test_a_folder_at_fault_is_refused_before_any_run(tmp_path):
         (error_text.scientific, 3.24e-15, "3.2 × 10⁻¹⁵"),
         (error_text.scientific, 0.0, "0"),
         (error_text.scientific, math.inf, "∞"),
-        (error_text.percent, 0.361, "0.361 %"),
-        (error_text.percent, 478.2, "478 %"),
+        (error_text.percent, 0.361, "0.361%"),
+        (error_text.percent, 478.2, "478%"),
         (error_text.percent, math.nan, "—"),
-        (error_text.percent, 1e-6, "1.0 × 10⁻⁶ %"),
+        (error_text.percent, 1e-6, "1.0 × 10⁻⁶%"),
         (error_text.seconds, 2.5, "2.5 s"),
         (error_text.seconds, 0.0123, "12.3 ms"),
         (error_text.seconds, 5e-8, "50 ns"),

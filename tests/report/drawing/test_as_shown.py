@@ -65,7 +65,7 @@ def test_what_is_invisible_is_left_out_and_an_external_reference_is_named(tmp_pa
     sketch.space.add_blockref("MECHANICAL", (0, 0), dxfattribs={"layer": "X"})
     (only,) = read_dxf(sketch.saved(tmp_path)).unread
     assert (only.reason, only.detail) == (
-        "an external reference, to be bound in CAD", "'MECHANICAL'"
+        "an external reference (bind it in CAD)", "'MECHANICAL'"
     )  # fmt: skip
 
 
@@ -118,8 +118,8 @@ def test_closed_lines_in_a_layout_are_said_to_be_there(tmp_path):
     ("code", "said"),
     [
         (21, "states US survey feet; use --units ft"),
-        (10, "states yards; use --units ft, if that is what it is drawn in, or scale it in CAD"),
-        (0, "states no unit; use --units with one of in, ft, mm, cm, m"),
+        (10, "states yards; use --units ft, if it is drawn in that unit, or scale it in CAD"),
+        (0, "the drawing does not state its unit; use --units with one of in, ft, mm, cm, m"),
     ],
 )  # fmt: skip
 def test_a_unit_that_no_roof_is_drawn_in_is_named(tmp_path, code, said):
@@ -151,7 +151,7 @@ SECTION, END = "  0\nSECTION\n  2\nCLASSES\n", "  0\nENDSEC\n"
 @pytest.mark.parametrize(("old", "new"), [(END, 2 * END), (SECTION, "")])
 def test_a_damaged_drawing_is_read_as_far_as_it_can_be_and_says_so(tmp_path, old, new):
     found = read_dxf(damaged(tmp_path, old, new))
-    assert found.repairs.startswith("a damaged drawing, read as far as it can be")
+    assert found.repairs.startswith("a damaged drawing, read as far as possible")
     assert found.repairs.endswith(": compare the plan")
     assert [len(line.shape.points) for line in found.lines] == [4]
 
@@ -227,4 +227,4 @@ def test_a_unit_below_a_foot_or_above_sixty_is_asked_about(tmp_path, item, is_as
     path = blank(tmp_path / "input.xlsx", UnitsFirst.US)
     drawing = sized(tmp_path, "ft", 1.0, item=item)
     output = output_of("plan", "read", drawing, path, exit_code=2 if is_asked else 0)
-    assert ("a size that few have" in output) is is_asked
+    assert ("an unusual size" in output) is is_asked

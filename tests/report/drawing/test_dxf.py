@@ -122,7 +122,7 @@ def test_each_kind_has_its_layer_and_each_text_shows_as_it_is(document, plan):
     elsewhere = {Layer.CLEARANCE_NONE, Layer.TITLE, Layer.WINDOW}
     assert used == {layer.title for layer in set(Layer) - elsewhere}
     assert all(re.fullmatch("S(-[A-Z]{4}){1,3}", layer.title) for layer in Layer)
-    words = "%%c 5%% %%u^J a^ b 100 %"
+    words = "%%c 5%% %%u^J a^ b 100%"
     texts = [replace(text, words=words) for text in plan.texts]
     (shown,) = {
         text.plain_text()

@@ -29,12 +29,12 @@ pytestmark = pytest.mark.quick
             *(f"line {row}: blocks is {found}; enter a whole number from 0 to 10,000"
               for row, found in ((2, "2.5"), (3, "-1"), (4, "1e+09"))),
         ]),
-        ("x [m],y [ft],blocks\n", ["line 1: the heading is 'y [ft]', and --units says another"
-                                   " unit; enter that of x and y"]),
-        (b"x,y,blocks\n\xff\n", ["not a CSV in UTF-8 or UTF-16; save it as one"]),
-        ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; add up "
+        ("x [m],y [ft],blocks\n", ["line 1: the heading is 'y [ft]', but --units states another"
+                                   " unit; enter the unit of x and y"]),
+        (b"x,y,blocks\n\xff\n", ["not a CSV file in UTF-8 or UTF-16; save it as one"]),
+        ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; combine "
                                                "neighboring blocks"]),
-        (b" " * (MAX_BYTES + 1), ["larger than 5 MB; keep the columns x, y, blocks"]),
+        (b" " * (MAX_BYTES + 1), ["larger than 5 MB; keep only the columns x, y, blocks"]),
     ],
 )  # fmt: skip
 def test_a_wrong_map_is_refused_with_every_line(file, content, wanted):
@@ -99,19 +99,19 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     assert " at x 58.40 ft (17.80 m), y 43.80 ft (13.35 m); from the centroid" in output
     assert "outline −1.60 ft (−0.49 m) in x, −1.20 ft (−0.37 m) in y" in output
     assert "A2: no blocks" in output
-    assert "outside of every array: 1 line of the map: 4" in output
+    assert "outside all arrays: 1 line of the map: 4" in output
     sheet = read(book)
     assert sheet.project.arrays[0].weight_n == pytest.approx(40000 * LB)
     (echoed,) = (row for row in sheet.echo if row.cell == "K8" and row.label == "Weight")
     assert (echoed.typed, echoed.value) == ("", "177929 N (computed)")
-    assert "the ballast weight of A1 is filled already; add --replace to overwrite it" in ran(
+    assert "the ballast weight of A1 is already filled in; use --replace to overwrite it" in ran(
         *words, exit_code=2
     )
     ran(*words, "--replace")
     path.write_text("x,y,blocks\n12.192,12.192,300\n18.288,14.630,200\n")  # in m
     refused = ran(*words, "--replace", exit_code=2)
     assert (
-        "no ballast block of the map is inside an array on the plan; use --units of the map"
+        "no ballast block of the map is inside an array on the plan; use the --units of the map"
         in refused
     )
     assert "A1: 500 blocks, 16000 lb" in ran(*words[:3], "m", *words[4:], "--replace")
@@ -125,9 +125,14 @@ def test_ballast_of_an_array_without_blocks_is_taken_out_with_replace(tmp_path):
     words = (path, book, "--units", "ft", "--block-weight", 32, "lb")
     type_into(book, {"Arrays/A1/Ballast weight": None, "Arrays/A1/Weight": None,
                      "Arrays/A2/Ballast weight": 18000})  # fmt: skip
-    assert "A2: no blocks; the 18000 lb (80.07 kN) given stay without --replace" in ran(*words)
+    assert (
+        "A2: no blocks; the entered weight, 18000 lb (80.07 kN), is kept; use --replace to"
+        " delete it"
+    ) in ran(*words)
     assert read(book).inputs["arrays"][1]["ballast_n"] == pytest.approx(18000 * LB)
-    assert "A2: no blocks; the 18000 lb (80.07 kN) given are taken out" in ran(*words, "--replace")
+    assert "A2: no blocks; the entered weight, 18000 lb (80.07 kN), was deleted" in ran(
+        *words, "--replace"
+    )
     assert read(book).inputs["arrays"][1]["ballast_n"] is None
 
 
@@ -150,8 +155,8 @@ def retitled(book, heading):
     [
         (42000, ""),  # as the parts
         (42400, ""),  # rounded
-        (43000, "weight is 43000 lb (191.27 kN), but 320 modules and the ballast are 42000 lb"
-                " (186.83 kN), more than 1% apart; correct one of them"),
+        (43000, "weight is 43000 lb (191.27 kN), but 320 modules and the ballast weigh 42000 lb"
+                " (186.83 kN), a difference of more than 1%; correct one of them"),
     ],
 )  # fmt: skip
 def test_a_weight_that_differs_from_that_of_its_parts_is_a_finding(weight, said):

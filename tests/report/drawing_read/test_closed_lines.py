@@ -125,7 +125,7 @@ def test_a_mesh_is_its_outline_also_in_a_block(tmp_path, how):
         (lambda s: s.space.add_hatch(dxfattribs=ARRAY).paths.add_edge_path().add_line((0, 0),
          (1, 1)), "a HATCH whose boundary is not closed"),
         (lambda s: s.space.add_3dface([(0, 0), (math.inf, 0), (1, 1)], dxfattribs=ARRAY),
-         "a 3DFACE with a value that is no number up to 1e+12"),
+         "a 3DFACE with a value that is not a number up to 1e+12"),
     ],
 )  # fmt: skip
 def test_an_area_that_cannot_be_read_is_listed(tmp_path, draw, reason):

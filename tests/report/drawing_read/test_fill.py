@@ -53,7 +53,7 @@ def test_a_blank_workbook_is_filled(tmp_path, units):
     path = new(tmp_path, units)
     output = run(drawing(tmp_path), path)
     assert "A1: array, 6 vertices" in output
-    assert "Clearances are not added yet: Project!" in output
+    assert "Clearances have not been added: Project!" in output
     sheet = read(path)
     inputs = sheet.inputs
     assert [row["id"] for row in inputs["arrays"]] == ["A1", "A2"]
@@ -72,7 +72,7 @@ def test_filled_places_and_full_tables_are_told(tmp_path):
     path = make(tmp_path)
     before = path.read_bytes()
     output = run(drawing(tmp_path), tmp_path, exit_code=2)
-    assert "the place of A1 is filled already; add --replace to overwrite it" in output
+    assert "the place of A1 is already filled in; use --replace to overwrite it" in output
     assert "Objects!" in output  # N
     assert path.read_bytes() == before
 
@@ -82,7 +82,7 @@ def test_filled_places_and_full_tables_are_told(tmp_path):
 
     output = run(drawing(tmp_path), edit(new(tmp_path), close), exit_code=2)
     row = re.sub(r"[A-Z]+(?=\d)", "", cell_address("Outlines/20/Outline of"))
-    assert f"{row}: the table has a row of totals, and no blank row above it" in output
+    assert f"{row}: the table has a totals row with no blank row above it" in output
 
 
 @pytest.mark.nightly
@@ -171,7 +171,9 @@ def test_rows_that_a_table_grows_by_have_its_formulas_and_formats(tmp_path, unit
 def test_a_drawing_without_a_unit_and_polygons_without_their_sheet_are_refused(tmp_path):
     path, book = drawing(tmp_path, "R12"), new(tmp_path)
     output = run(path, book, exit_code=2)
-    assert "states no unit; use --units with one of in, ft, mm, cm, m" in output
+    assert (
+        "the drawing does not state its unit; use --units with one of in, ft, mm, cm, m" in output
+    )
     run(path, book, "--units", "ft")
     path = make(tmp_path, clearances=[])
     edit(path, lambda book: book.remove(book["Outlines"]))
@@ -185,8 +187,11 @@ def test_a_drawing_without_anything_known_lists_what_there_is(tmp_path):
     sketch = Sketch()
     ring = sketch.ring("STRUCTURE", BOX_FT)
     output = run(sketch.saved(tmp_path), new(tmp_path), "--accept", exit_code=2)
-    assert "nothing to fill in: list the layers on the Layers worksheet" in output
-    listed = f"a closed line on a layer that is not in Layers: 1 on STRUCTURE ({ring.dxf.handle})"
+    assert "nothing to fill in: enter the types of the layers on the Layers worksheet" in output
+    listed = (
+        "a closed line on a layer that is not on the Layers worksheet: 1 on STRUCTURE"
+        f" ({ring.dxf.handle})"
+    )
     assert listed in output
 
 
@@ -227,11 +232,12 @@ def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     assert heights["RTU-1"] == pytest.approx(3.5 * FT)
     assert heights["RTU-2"] == pytest.approx(4.0 * FT)
     assert heights["TANK"] == pytest.approx(5.0 * FT)
-    for said in ("rotated counterclockwise by -17°", "the drawing states no north: check",
+    for said in ("rotated counterclockwise by -17°", "the drawing does not state north: check",
                  "layer a-roof-tank: fixed object\nlayer A-ANNO-NOTE: ",
                  "A1: array, 4 vertices, 80.00 ft (24.38 m) by 30.00 ft (9.14 m) from ",
-                 "(ELEV 60.0 in (1524 mm); taken as above the roof)",
-                 "(HT 48.0 in (1219 mm); no unit given, so in that of the drawing)"):  # fmt: skip
+                 "(ELEV 60.0 in (1524 mm); assumed to be above the roof)",
+                 "(HT 48.0 in (1219 mm); no unit stated; read in the unit of the"
+                 " drawing)"):  # fmt: skip
         assert said in output
     # They are known from now on; one that is given again is changed in its row.
     again = run(drawn, path, "--replace", "--layer", "A-ROOF-TANK=not read")
@@ -245,11 +251,11 @@ def test_layers_that_are_accepted_or_given_are_kept_on_the_sheet(tmp_path):
     [
         (("--layer", "AR-RAY=array"), "no layer 'AR-RAY'; did you mean 'ARRAY'?"),
         (("--layer", "ARRAY=arrays"),
-         "'ARRAY=arrays' is not NAME=KIND, where KIND is one of array"),
-        (("--layer", "=array"), "'=array' is not NAME=KIND"),
+         "'ARRAY=arrays' is not NAME=TYPE, where TYPE is one of array"),
+        (("--layer", "=array"), "'=array' is not NAME=TYPE"),
         (("--rotate", "400"), "it is 400 deg; enter more than -360 deg and less than 360 deg."),
         (("--rotate", "nan"), "it is nan deg; enter more than"),
-        (("--rotate", "north"), "states no north (GEODATA); use"),
+        (("--rotate", "north"), "the drawing does not state north (GEODATA); use"),
     ],
 )  # fmt: skip
 def test_options_that_say_nothing_are_refused(tmp_path, words, said):
@@ -286,7 +292,8 @@ def test_what_is_not_read_is_said_once_for_each_cause(tmp_path):
              if line.startswith("not read")]  # fmt: skip
     assert [re.sub(r"\(.*\)", "(...)", line) for line in lines] == [
         "not read: a POINT: 40 on L0, L1, L2 and 5 more (...)",
-        "not read: an open line that closes no outline: 40 on L0, L1, L2 and 5 more (...)",
+        "not read: an open line that is not part of a closed outline: 40 on L0, L1, L2 and 5"
+        " more (...)",
     ]
     assert all(line.endswith(" and 37 more)") for line in lines)
 
@@ -297,7 +304,7 @@ def test_a_rectangle_left_far_from_the_roof_is_asked_about(tmp_path):
     sketch.ring("ARRAY", [(x + east, y) for x, y in BOX_FT], "A1")
     sketch.ring("OBJECT", UNIT_FT)
     output = run(sketch.saved(tmp_path), new(tmp_path))
-    assert "OBJ-1 is 5999925.00 ft (1828777.14 m) from the roof: is it a leftover? Del" in output
+    assert "OBJ-1 is 5999925.00 ft (1828777.14 m) from the roof; was it left over? Del" in output
 
 
 @pytest.mark.parametrize(

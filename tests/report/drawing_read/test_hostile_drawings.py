@@ -35,9 +35,9 @@ def test_a_million_entities_are_refused_with_the_limit(file):
         return f"0\nSECTION\n2\nENTITIES\n{body}0\nENDSEC\n0\nEOF\n"
 
     found = hostile(file, entities(1_000_000))
-    assert found.startswith(f"2,000,004 values, more than {MAX_VALUES:,}; save the layers")
+    assert found.startswith(f"2,000,004 values, more than {MAX_VALUES:,}; save only the layers")
     found = hostile(file, entities(400_000))
-    assert found.startswith(f"400,003 entities, more than {MAX_ENTITIES:,}; save the layers")
+    assert found.startswith(f"400,003 entities, more than {MAX_ENTITIES:,}; save only the layers")
 
 
 @pytest.mark.quick
@@ -46,7 +46,9 @@ def test_large_files_and_long_names_are_refused(file):
     sketch = Sketch()
     sketch.ring("L" * 1_000_000, BOX_FT)
     found = hostile(file, written(sketch))
-    assert found.startswith("1,000,000 letters in a line, more than 10,000; save the layers")
+    assert found.startswith(
+        "1,000,000 characters in a line, more than 10,000; save only the layers"
+    )
 
 
 @pytest.mark.parametrize(
@@ -54,7 +56,7 @@ def test_large_files_and_long_names_are_refused(file):
     [
         (b"AC1032\x00\x00", "a DWG drawing"),
         (b"AutoCAD Binary DXF\r\n\x1a\x00", "a binary DXF"),
-        (b"%PDF-1.7\n", "a PDF; use the DXF that it was plotted from"),
+        (b"%PDF-1.7\n", "a PDF; use the DXF from which it was plotted"),
         (b"PK\x03\x04\x14\x00", "a zip; unpack it and use the DXF in it"),
         (
             b'\xef\xbb\xbf<?xml version="1.0"?>\n<!-- made -->\n<svg width="9">',
@@ -135,7 +137,7 @@ def test_a_block_that_the_drawing_does_not_have_is_listed(tmp_path):
     found = plan(sketch.saved(tmp_path))
     assert [place.name for place in found.arrays] == ["A1"]
     (missing,) = found.unread
-    assert missing.reason == "a block that the drawing does not have"
+    assert missing.reason == "a missing block"
     assert missing.detail == "'GONE'"
 
 
@@ -173,7 +175,7 @@ def test_what_cannot_be_printed_is_neither_printed_nor_written(tmp_path, letter)
     path.write_bytes(path.read_bytes().replace(b"NOT-KNOWN", f"NOT-{letter}KNOWN".encode()))
     output = output_of("plan", "read", path, book, "--replace", "--accept")
     assert "A1: array" in output
-    assert " is not in Layers: 1 on NOT-KNOWN (" in output
+    assert " is not on the Layers worksheet: 1 on NOT-KNOWN (" in output
     assert letter not in output
     inputs = read(book).inputs
     assert inputs["arrays"][0]["id"] == "A1"
@@ -203,17 +205,17 @@ def spline(space, count=4, degree=3, knots=None, at=1.0):
 INF, NAN = math.inf, math.nan
 MANY, NO_NUMBER, NO_AREA = (
     "of more than 2000 points",
-    "with a value that is no number up to 1e+12",
+    "with a value that is not a number up to 1e+12",
     "without an area",
 )
-OPEN_LINE = "an open line that closes no outline"
+OPEN_LINE = "an open line that is not part of a closed outline"
 
 
 @pytest.mark.parametrize(
     ("draw", "reason"),
     [
         (lambda s: spline(s, 600), f"a SPLINE {MANY}"),
-        (lambda s: spline(s, 1900, 1800), "a SPLINE of a degree of more than 10"),
+        (lambda s: spline(s, 1900, 1800), "a SPLINE of a degree above 10"),
         (lambda s: spline(s, knots=[0] * 4 + [INF] * 4), f"a SPLINE {NO_NUMBER}"),
         (lambda s: spline(s, knots=[8, 7, 6, 5, 4, 3, 2, 1]), OPEN_LINE),
         (lambda s: spline(s, knots=[1.0] * 999), "a SPLINE that cannot be read (ValueError)"),
@@ -243,7 +245,9 @@ def test_curves_and_texts_of_too_much_in_all_are_refused(tmp_path, file):
     for _ in range(4):
         sketch.space.add_mtext("\\S1/2;" * 50_000)
     found = hostile(file, written(sketch))
-    assert found.startswith(f"600,000 letters of texts, more than {MAX_LETTERS:,}; save the layers")
+    assert found.startswith(
+        f"600,000 characters of text, more than {MAX_LETTERS:,}; save only the layers"
+    )
 
 
 def starred(k):
@@ -258,10 +262,10 @@ def ringed(k):
 @pytest.mark.parametrize(
     ("line", "count", "reasons"),
     by_day([
-        (starred, 300, {"open lines of which three or more meet at a point"}),
+        (starred, 300, {"three or more open lines that meet at a point"}),
         (ringed, 3000, {f"a closed line {MANY}"}),
         (lambda k: (((k // 2) % 30, k // 60), ((k // 2) % 30 + k % 2, k // 60 + 1 - k % 2)), 1800,
-         {"open lines of which three or more meet at a point"}),
+         {"three or more open lines that meet at a point"}),
         (lambda k: ((0, 0), (0, 0)), 300, {OPEN_LINE}),
     ], 1),
     ids=["star", "ring", "grid", "points"],

@@ -161,9 +161,7 @@ def test_rectangles_that_are_no_modules_are_left_and_too_many_refused(tmp_path):
     sketch = Sketch(unit="m")
     for k in range(40):
         grid(sketch, 1, 1, x=0.001 * k)
-    with pytest.raises(
-        InputError, match="layer ARRAY: 40 rectangles of the size of modules on one"
-    ):
+    with pytest.raises(InputError, match="layer ARRAY: 40 module-size rectangles on one"):
         plan(sketch.saved(tmp_path))
 
 

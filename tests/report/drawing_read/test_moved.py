@@ -240,14 +240,15 @@ def test_what_was_typed_turns_with_the_sheet_and_what_is_lost_is_named(tmp_path)
     # A2 is not drawn any more, RTU-2 was typed.
     output = second_day(tmp_path, path, [resized, FEET[2]], move)
     assert (
-        "the plan as a whole is turned counterclockwise by 90°, moved by x 150.00, y 0.00" in output
+        "the plan as a whole is rotated counterclockwise by 90°, moved by x 150.00, y"
+        " 0.00" in output
     )
     assert "A1: downslope direction 270° is 0° now" in output
     assert (
         "A1 has another size; stays as typed: weight 42000 lb, downslope direction 270 deg"
         in output
     )
-    (line,) = (text for text in output.splitlines() if text.startswith("taken out with A2: "))
+    (line,) = (text for text in output.splitlines() if text.startswith("deleted with A2: "))
     assert "weight 41000 lb" in line
     assert "array A1, object A2, provided clearance 240 in, clearance source measured" in line
     inputs = read(path).inputs

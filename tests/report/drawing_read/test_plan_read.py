@@ -188,7 +188,8 @@ def test_what_was_not_understood_is_listed_with_handle_and_layer(tmp_path):
     assert found == {
         (line.dxf.handle, "ARRAY"): (OPEN, ""),
         (opened.dxf.handle, "ARRAY"): (OPEN, ""),
-        (vent.dxf.handle, "VENTS"): ("a closed line on a layer that is not in Layers", ""),
+        (vent.dxf.handle, "VENTS"): ("a closed line on a layer that is not on the Layers"
+                                     " worksheet", ""),
         (crossed.dxf.handle, "ARRAY"):
             ("a closed line that touches or crosses itself", "near 5, 5"),
         (flat.dxf.handle, "ARRAY"): ("a closed line without an area", ""),
@@ -357,7 +358,7 @@ def test_a_height_that_may_be_above_a_datum_is_said_as_above_the_roof(tmp_path):
     sketch.ring("OBJECT", UNIT_FT, '(N) RTU-1 T.O. 48"')
     (item,) = plan(sketch.saved(tmp_path)).objects
     assert item.name == "(N) RTU-1"
-    assert item.note == "T.O. 48.0 in (1219 mm); taken as above the roof"
+    assert item.note == "T.O. 48.0 in (1219 mm); assumed to be above the roof"
 
 
 @pytest.mark.parametrize(
@@ -402,7 +403,7 @@ def test_a_height_that_is_not_understood_is_listed(tmp_path):
     assert math.isnan(found.objects[0].height_m)
     (item,) = found.unread
     assert (item.handle, item.reason, item.detail) == (
-        ring.dxf.handle, "a height that is not understood", "'RTU-7 HT 42-48 in'"
+        ring.dxf.handle, "a height that could not be interpreted", "'RTU-7 HT 42-48 in'"
     )  # fmt: skip
 
 

@@ -116,7 +116,7 @@ def test_what_the_drawing_no_longer_has_is_taken_out_with_its_clearances(tmp_pat
     assert [row for row in inputs["clearances"] if row] == []
     for name in ("A2", "RTU-1"):
         (line,) = (line for line in output.splitlines() if line.startswith(f"{name} "))
-        assert line.endswith("not in the drawing; taken out")
+        assert line.endswith("not in the drawing; deleted")
 
 
 @pytest.mark.nightly
@@ -136,7 +136,7 @@ def test_a_second_drawing_adds_to_the_first_without_replace(tmp_path):
     output = plan_read(sketch.saved(tmp_path), path)
     assert [row["id"] for row in read(path).inputs["arrays"]] == ["A1", "A2"]
     assert "A1      x 20.00 to 100.00, y 60.00 to 100.00 ft" in output
-    assert "not in the drawing; stays without --replace" in output
+    assert "not in the drawing; kept without --replace" in output
 
 
 def grid(sketch, x, y):
@@ -156,7 +156,7 @@ def test_modules_that_are_not_drawn_any_more_are_taken_out(tmp_path):
     sketch = Sketch()
     sketch.ring("ARRAY", box(20, 20, (41.8, 3.4)))
     output = plan_read(sketch.saved(tmp_path), path, "--replace")
-    assert "A1: 6 modules taken out, as they are not drawn" in output
+    assert "A1: 6 modules deleted, as they are not drawn" in output
     assert read(path).inputs["arrays"][0]["modules"] is None
     # Typed, they stay.
     type_into(path, {"Arrays/A1/Modules": 30})
@@ -238,7 +238,7 @@ def test_an_outline_is_the_row_that_its_name_its_place_or_its_size_says(places, 
 )
 @pytest.mark.quick
 def test_what_cannot_be_told_stops_with_the_candidates(places, candidates):
-    with pytest.raises(InputError, match=f"{candidates}: write its name inside of it as a text"):
+    with pytest.raises(InputError, match=f"{candidates}: write its name inside it as a text"):
         matched_with([UPPER, LOWER], places)
 
 

@@ -120,7 +120,7 @@ def test_a_beam_is_found_again_from_its_own_floors():
 def test_predictions_are_what_their_parts_say_to_the_ground_itself(made, recorded, comparison):
     assert [prediction.name for prediction in recorded.predictions] == [
         "fitted to the 12th and 24th floors", "fitted to the 12th floor", BY_HEIGHT,
-        "first fit, but with 5 % damping", "ground motion applied at the roof, no building",
+        "first fit, but with 5% damping", "ground motion applied at the roof, no building",
     ]  # fmt: skip
     prediction = recorded.predictions[2]
     model = building_of_periods([1.0], damping=[0.05], alpha0=prediction.alpha0)
@@ -210,7 +210,7 @@ def test_the_manual_says_how_far_off_predictions_are_or_that_none_was_compared(
     for prediction in recorded.predictions:
         assert cells.count(prediction.name[0].upper() + prediction.name[1:]) == 3
         for ratio, scatter in zip(prediction.band_ratios, prediction.band_scatters, strict=True):
-            assert f"{ratio:.2f} ({100 * scatter:.0f} %)" in cells
+            assert f"{ratio:.2f} ({100 * scatter:.0f}%)" in cells
         for prd, true in zip(prediction.prd_m, recorded.prd_m, strict=True):
             assert f"{1e3 * prd:.0f} ({prd / true:.2f})" in cells
     assert cells.count("Recorded") == 2

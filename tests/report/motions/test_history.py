@@ -216,12 +216,12 @@ def test_targets_can_be_pickled(changes):
 
 NO_TEXT = "not a text file; use text or CSV"
 TOO_MUCH = (
-    "the records to here have more than 64 MB together; use fewer motions, or convert the records"
+    "the records up to this row exceed 64 MB in total; use fewer motions, or convert the records"
     " (roofslip motion convert --help)"
 )
 
 
-NOT_READ = "the records from here on are not read; correct those before it first"
+NOT_READ = "the records from here on were not read; first correct the rows above"
 
 
 def grown(path, together, names):

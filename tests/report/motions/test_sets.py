@@ -109,9 +109,9 @@ def test_the_location_in_the_identity_of_a_channel_is_no_azimuth(tmp_path):
     ("names", "why"),
     [
         ("PET-000 PET-090", "2 horizontal and 0 vertical of one motion; a set has 2 and 1;"
-         " --without-vertical takes the two"),
+         " --without-vertical uses the two"),
         ("P-000 P-090 P-180 P-UP", "3 horizontal and 1 vertical of one motion; a set has 2 and 1"),
-        ("P-000 P-180 P-UP", "the horizontal components are not perpendicular by their names"),
+        ("P-000 P-180 P-UP", "the names of the horizontal components are not perpendicular"),
         ("P-000 P-090 P-DWN", "P-DWN.csv is positive downward: enter it with factor -1, as motion"
          " convert --factor -1 writes it"),
     ],
@@ -185,7 +185,7 @@ def test_headings_go_before_names_and_must_not_contradict_them(tmp_path):
         "RSN4_36695": [f"RSN4_36695{end}.AT2" for end in ("021", "111", "-UP")],
         "free": [f"free_CHAN{number}.AT2" for number in ("014", "012", "013")],
     }
-    why = "its heading (180) and its name have different components"
+    why = "its heading (180) and its name state different components"
     assert left["wrong-UP.AT2"] == left["wrong-090.AT2"] == why
     assert left["two-090.AT2"].startswith("1 horizontal and 0 vertical")
 
@@ -215,7 +215,7 @@ def test_files_named_by_their_channel_alone_are_a_set_and_the_corrected_one_is_t
         channel(tmp_path / "CE99" / f"chan00{number}.v1", "csmip-step.raw", component)
     sets, left = taken(tmp_path)
     assert sets == {"CE99": [f"CE99/chan00{number}.v2" for number in (3, 1, 2)]}
-    assert list(left.values()) == ["uncorrected; the corrected records are taken"]
+    assert list(left.values()) == ["uncorrected; the corrected records are used"]
 
 
 def test_two_horizontal_records_are_a_set_where_that_is_asked(tmp_path):
@@ -242,7 +242,7 @@ def test_several_channels_of_a_file_are_named_as_in_the_sheet(tmp_path):
     (tmp_path / "many.csv").write_text(f"time [s],a [g],b [g],c [g]\n{rows}")
     sets, left = taken(tmp_path)
     assert sets == {"PAS": ["PAS.csv | HNE", "PAS.csv | HNN", "PAS.csv | HNZ"]}
-    assert left == {"many.csv": "neither its heading (a) nor its name has a component"}
+    assert left == {"many.csv": "neither its heading (a) nor its name states a component"}
     row = "PAS     x  PAS.csv | HNE  horizontal e             0.01        8  text"
     assert row in list(table(sets_of(tmp_path)[0]))
 
@@ -256,7 +256,9 @@ def test_a_name_of_two_sets_or_too_long_for_an_id_is_left(tmp_path):
     sets, left = taken(tmp_path)
     assert list(sets) == ["K", "x"]
     assert len(left) == 3
-    names = {why.partition(";")[0].removeprefix("their name is ") for why in left.values()}
+    names = {
+        why.partition(";")[0].removeprefix("several sets have the name ") for why in left.values()
+    }
     assert names == {"M", "q" * 41}
 
 
@@ -266,7 +268,7 @@ def test_hidden_files_and_numbers_that_are_no_azimuth_are_no_components(tmp_path
     (tmp_path / "B.²").write_bytes((tmp_path / "D-361.csv").read_bytes())
     sets, left = taken(tmp_path)
     assert (sets, sorted(left)) == ({}, ["B.400.csv", "B.²", "C.x².csv", "D-361.csv"])
-    assert all("nor its name has a component" in why for why in left.values())
+    assert all("nor its name states a component" in why for why in left.values())
 
 
 def test_more_files_than_a_session_takes_are_refused(tmp_path):
@@ -343,7 +345,7 @@ def test_a_pasted_column_agrees_with_the_times_and_units_beside_it(paste, header
     assert read_workbook(paste(cells | name)).records[2].npts == 104
 
 
-BLANK = "is blank, beside or above values; fill it in, or delete its row"
+BLANK = "is blank, next to or above values; fill it in, or delete its row"
 PASTED = f"<{RECORD}>: horizontal record:"
 
 
@@ -376,20 +378,20 @@ def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
          ["worksheet 'Pasted' has no heading 'North' in its first 10 rows; write it above the"
           " column"]),
         (pasted([0.1, 0.2], name="Elsewhere!North"),
-         ["'Elsewhere!North' names no worksheet of this workbook; enter Sheet!Header, or a file"]),
+         ["'Elsewhere!North' is not a worksheet of this workbook; enter Sheet!Header, or a file"]),
         (pasted([0.1, 0.2], header="North [m/s2]", name="Pasted!North [m/s2]"),
          ["Pasted!B3 is 'North [m/s2]', but the record units are g; correct one of them"]),
         (pasted([0.1, 0.2], header="North [km/s2]", name="Pasted!North [km/s2]"),
-         ["Pasted!B3 is 'North [km/s2]', which is no acceleration by time; enter the column of"
+         ["Pasted!B3 is 'North [km/s2]', which is not an acceleration history; enter the column of"
           " one"]),
         (pasted([0.1, 0.2], header="Total [g]", name="Pasted!Total [g]"),
          ["Pasted!B3 is 'Total [g]', the magnitude of a vector; use a component"]),
         (pasted([0.1, -999, 0.2]),
-         ["Pasted!North: sample 2 is -999 where no other exceeds 0.2 g: it is a code for missing"
+         ["Pasted!North: sample 2 is -999 where no other exceeds 0.2 g; this is a code for missing"
           " data; use a record without gaps"]),
         (pasted([150.0, -290.0, 0.2]),
-         ["Pasted!North: the values reach 290 g, and no ground or roof shakes with 10 g: is it"
-          " cm/s2? Give the units that they have, or correct them"]),
+         ["Pasted!North: the values reach 290 g, which is more than 10 g; are they in"
+          " cm/s2? Enter the correct units, or correct the values"]),
         (timed([0.0, 0.02, 0.04, 0.06]),
          ["Pasted!A3 has times at a step of 0.02 s, but the time step is 0.01 s; correct one of"
           " them"]),

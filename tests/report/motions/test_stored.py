@@ -73,7 +73,7 @@ def test_a_zip_of_windows_may_have_backslashes_in_its_names(tmp_path):
 def test_a_link_in_a_zip_is_refused(tmp_path):
     link = zipfile.ZipInfo("records/x.csv")
     link.external_attr = (stat.S_IFLNK | 0o777) << 16
-    with pytest.raises(InputError, match="a link, not a file"):
+    with pytest.raises(InputError, match="a link instead of a file"):
         store(packed([("input.xlsx", b""), (link, b"/etc/passwd")]), tmp_path)
     assert not list(tmp_path.iterdir())
 
@@ -100,10 +100,10 @@ LOCKED = changed(packed([("input.xlsx", b"abc")]), (LISTED, 8, b"\1"), (HEADER, 
     ("files", "problem"),
     by_day(
         [
-            (sent(), "no file was sent"),
-            (sent("a.csv"), r"no workbook \(.xlsx\) was sent"),
+            (sent(), "no file was uploaded"),
+            (sent("a.csv"), r"no workbook \(.xlsx\) was uploaded"),
             (sent("a.xlsx", "b.xlsx"), r"2 workbooks were sent \(a.xlsx, b.xlsx\)"),
-            (sent("a.zip", "b.xlsx"), "a zip was sent with other files"),
+            (sent("a.zip", "b.xlsx"), "a zip was uploaded with other files"),
             (sent("input.xlsx", *(f"{k}.csv" for k in range(500))), "more than 500 files"),
             (zipped(b""), "the zip is damaged"),
             (zipped(HEADER), "the zip is damaged"),

@@ -79,7 +79,7 @@ def test_verdicts_of_arrays_clearances_and_neighbors_are_one_word(made):
     shown = [kind.removesuffix(", any") for kind in kinds]
     assert [row["Verdict"] for row in table] == [row["verdict"] for row in gaps]
     measured = page_of(package, "notes").table("Clearance schedule").rows
-    assert [bare(row["Kind"]) for row in measured] == shown
+    assert [bare(row["Type"]) for row in measured] == shown
     cells = rows_of(book["Clearances"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in gaps]
     assert [f"{row['Kind']}, {row['Direction']}" for row in cells] == kinds
@@ -102,7 +102,7 @@ def test_the_verdicts_of_requirements(made):
     checks = alike(check for check in package.assessment.checks if check.id not in APART)
     said = [(c.subject or "project", plain(c.title), c.verdict.value) for c in checks]
     table = page_of(package, "limits").table("All checks").rows
-    shown = [(r["Of"], plain(r["Check"]), r["Verdict"]) for r in table if r["Check"]]
+    shown = [(r["Item"], plain(r["Check"]), r["Verdict"]) for r in table if r["Check"]]
     assert shown == said
 
 

@@ -175,7 +175,7 @@ def test_a_block_that_leaves_the_roof_gives_no_value_with_its_time():
         assert set(values[1:-1]) == {"", "none"}  # it has no transverse runs
         assert (values[-1], force, status) == ("—", "−0.40", "uplift")
     row = page_of(package, "summary").table("Governing").row("Runs that come to rest")
-    assert (row["Of"], row["Verdict"]) == ("A1 to A3", "NG")
+    assert (row["Item"], row["Verdict"]) == ("A1 to A3", "NG")
 
 
 @pytest.mark.parametrize("edition", by_day(["ASCE 7-16", "ASCE 7-22"], 1))

@@ -44,9 +44,9 @@ def test_what_the_two_sheets_do_not_say_is_refused_in_words(tmp_path):
     told = [line for line in workbooks.problems(path) if "edition is letter" in line]
     assert all(line.startswith("Options!") for line in told)
     for fault in (
-        "edition is letter with 7 arrays, of which it has at most six",
-        "edition is letter, which is not by analysis, and motions are listed",
-        "edition is letter, and provisions are overridden",
+        "edition is letter, which permits at most six arrays; 7 are entered",
+        "edition is letter, which does not permit an analysis, but motions are listed",
+        "edition is letter, which does not permit overrides",
     ):
         assert len([line for line in told if fault in line]) == 1
 
@@ -54,7 +54,7 @@ def test_what_the_two_sheets_do_not_say_is_refused_in_words(tmp_path):
 def test_more_than_two_sheets_are_refused(project, monkeypatch):
     monkeypatch.setattr("report.making.lay_out", lambda *given: given[2](3) or b"%PDF")
     told = commands.output_of("report", project, exit_code=2)
-    assert "edition is letter, of two sheets; what is entered takes 3" in told
+    assert "edition is letter, which has two sheets; this input requires 3" in told
     assert not (project / "out").exists()
 
 

@@ -113,7 +113,7 @@ def test_check_says_what_is_made_and_the_screen_what_an_analysis_could_save(tmp_
     notes = [line for line in lines(sheet, found) if line.startswith("note: ")]
     assert any("Motions!" in note and "uses the prescriptive displacement" in note
                for note in notes)  # fmt: skip
-    assert any("smaller events needs motions and is skipped" in note for note in notes)
+    assert any("smaller events requires motions and is skipped" in note for note in notes)
     said = list(summary(assessments.without_motions()))
     assert said[0].split()[:3] == ["array", "prescriptive", "design"]
     (note,) = [line for line in said if line.startswith("note: no motions are listed")]

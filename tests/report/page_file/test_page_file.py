@@ -82,7 +82,8 @@ def test_arrays_are_shaded_by_their_largest_ratio_and_names_are_no_anchors():
 def test_a_file_that_would_be_too_large_computes_nothing_and_says_so(monkeypatch):
     monkeypatch.setattr(report.page_file.page, "MOST_BYTES", 200_000)
     with pytest.warns(
-        match=r"without recomputation: with it, it would have \d\.\d MB, more than 0\.2"
+        match=r"does not recompute the runs: with their motions, it would be \d\.\d MB, more"
+        r" than 0\.2"
     ):
         found = page(drawn("A1"), assessments.usual(), "0" * 12, b"{}").decode()
     assert len(found) < 200_000

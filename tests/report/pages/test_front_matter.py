@@ -161,8 +161,8 @@ def test_contact_pressures_stand_beside_each_other_and_are_not_compared():
     tests = assessments.TESTS | {"contact_pressure_pa": 7182.0}
     said = page_of(package(arrays=arrays, friction_tests=tests), "inputs").line("Contact pressure")
     assert said == (
-        "Contact pressure, not compared by a rule: of the tests 150.0 psf (7.18 kPa); of the"
-        " supports array A1 100.0 psf (4.79 kPa), array A2 not entered."
+        "Contact pressure (not compared by any rule): 150.0 psf (7.18 kPa) in the tests; supports"
+        " of array A1 100.0 psf (4.79 kPa), array A2 not entered."
     )
     assert "Contact pressure" not in page_of(package(), "inputs")
 
@@ -217,7 +217,7 @@ def test_the_schedule_of_gaps_is_rounded_up():
     made = package(objects=[near], clearances=rows, options=project_parts.REVIEW)
     table = page_of(made, "notes").table("Clearance schedule")
     least = [math.ceil(gap.required_m * 1e3) for gap in made.assessment.clearances]
-    assert [(row["To"], row["At least [mm]"], row["Measured, date, by"]) for row in table.rows] == [
+    assert [(row["To"], row["Minimum [mm]"], row["Measured, date, by"]) for row in table.rows] == [
         ("A2", str(least[0]), ""), ("RTU-9", str(least[1]), ""),
     ]  # fmt: skip
     assert least[1] != round(made.assessment.clearances[1].required_m * 1e3)
@@ -227,5 +227,5 @@ def test_the_schedule_of_gaps_is_rounded_up():
 def test_only_a_parapet_that_qualifies_is_relied_on(height_m):
     edge = projects.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=height_m)
     page = notes(objects=[edge], clearances=[projects.clearance("A1", "N", 60.0)])
-    assert ("Parapets that the clearances rely on" in page) is (height_m == 1.2)
+    assert ("Parapets on which the clearances rely" in page) is (height_m == 1.2)
     assert ("Height of the parapets above the roof measured: N." in page) is (height_m == 1.2)

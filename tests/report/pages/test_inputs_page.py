@@ -60,17 +60,18 @@ OTHER_REPORT = run("wet", 1, 0.5, report="FT-9", velocity_mps=0.0254)
         (STANDARD, {"standard": "ASTM D1894"}, [], False, "standard ASTM D1894"),
         (STANDARD, {"standard": ""}, [], False, "standard not entered; accreditation ISO"),
         (STANDARD, {"accreditation": ""}, [], False, "standard ASTM G115-10; accreditation not"),
-        (REPEATS, {}, runs(), True, f"dry and wet 3 runs {AT}"),
+        (REPEATS, {}, runs(), True, f"dry and wet: 3 runs {AT}"),
         (REPEATS, {}, [], False, "no runs"),
-        (REPEATS, {}, runs(dry=(0.6, 0.6)), False, f"dry 2 runs {AT}, wet 3 runs {AT}"),
+        (REPEATS, {}, runs(dry=(0.6, 0.6)), False, f"dry: 2 runs {AT}, wet: 3 runs {AT}"),
         (REPEATS, {"report": ""}, [*runs(), OTHER_REPORT], False,
-         f"report without a number: dry and wet 3 runs {AT}; report FT-9: dry 0 runs, wet 1 run"),
+         f"report without a number, dry and wet: 3 runs {AT}; report FT-9, dry: 0 runs, wet: 1"
+         " run"),
         (REPEATS, {}, [*runs(dry=()), *APART], False,
-         "dry 1 run at each of 1.00, 2.00, 4.00 in/s (25.4, 50.8, 101.6 mm/s), wet 3 runs"),
+         "dry: 1 run at each of 1.00, 2.00, 4.00 in/s (25.4, 50.8, 101.6 mm/s), wet: 3 runs"),
         (REPEATS, {}, [*runs(dry=()), *APART, *MORE], False,
-         f"dry 3 runs {AT}, 1 run at each of 2.00, 4.00 in/s (50.8,"),
+         f"dry: 3 runs {AT}, 1 run at each of 2.00, 4.00 in/s (50.8,"),
         (REPEATS, {}, [*runs(wet=()), *UNKNOWN], False,
-         f"dry 3 runs {AT}, wet 3 runs with velocity not entered"),
+         f"dry: 3 runs {AT}, wet: 3 runs with velocity not entered"),
     ],
 )  # fmt: skip
 def test_a_row_is_satisfied_by_what_its_report_and_its_runs_have(
@@ -86,7 +87,7 @@ def test_a_row_is_satisfied_by_what_its_report_and_its_runs_have(
 def test_the_row_has_the_units_of_the_project():
     si = projects.project().project.model_dump() | {"units_first": "SI"}
     found = row(REPEATS, friction_runs=runs(), project=si).found
-    assert found == "dry and wet 3 runs at 25.4 mm/s (1.00 in/s)"
+    assert found == "dry and wet: 3 runs at 25.4 mm/s (1.00 in/s)"
 
 
 def test_a_law_is_fitted_to_four_velocities_and_none_to_one_coefficient():
@@ -232,11 +233,13 @@ def test_the_values_are_those_of_a_permit_sheet_or_category_e_near_a_fault(full)
     assert found[CATEGORY] == found["SDC"] == "D"
     assert (
         rows(full)[CATEGORY]["Source"]
-        == "most severe of D (short period), D (1 s), S1 below 0.75 g"
+        == "the most severe of D (short period), D (1 s), S1 below 0.75 g"
     )
     assert "not entered" not in found.values()
     found = rows(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
-    assert found[CATEGORY]["Source"] == "most severe of D (short period), not entered (1 s), S1 E"
+    assert found[CATEGORY]["Source"] == (
+        "the most severe of D (short period), not entered (1 s), S1 E"
+    )
     assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E"
     confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
     assert confirmed[CATEGORY] == confirmed["SDC"] == "E"

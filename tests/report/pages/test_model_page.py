@@ -62,7 +62,7 @@ def test_where_nothing_slips_nothing_is_neglected_and_the_largest_demand_said():
     still = tuple(replace(motion, scale=1e-3) for motion in assessments.motions(3, 4.0))
     package = scene(still, arrays=[projects.array("A1", 1.0)])
     assert table(package, USED).row("A1")["Model"] == "0, no slip"
-    assert table(package, NEGLECTED).row("A1")["Neglected"] == "None: no slip"
+    assert table(package, NEGLECTED).row("A1")["Neglected"] == "none; no slip"
     still = [replace(m, scale=0.02 * k) for k, m in enumerate(assessments.motions(3, 4.0), start=1)]
     row = table(scene(tuple(still[::-1]), arrays=[projects.array("A1", 1.0)]), USED).row("A1")
     assert row["Model"] == "0, no slip"
@@ -119,8 +119,12 @@ def test_an_array_that_begins_to_tip_is_not_ok_and_is_named():
     assert done.arrays[0].tipping.ratio > 1.0
     assert not done.verdict.is_permitted
     assert not done.array_verdict(done.arrays[0]).is_permitted
-    row = page_of(package, "summary").table("Governing").row("V/N over the tipping limit b/(2c)")
-    assert (row["Of"], row["Verdict"]) == ("A1", "NG")
+    row = (
+        page_of(package, "summary")
+        .table("Governing")
+        .row("V/N divided by the tipping limit b/(2c)")
+    )
+    assert (row["Item"], row["Verdict"]) == ("A1", "NG")
     assert float(row["Found"]) > 1.0
     assert table(package, CHECKS).row("A1")["Verdict"] == "NG"
 
@@ -151,7 +155,7 @@ def test_a_row_is_ng_by_one_block_and_stiffer_links_may_help(both):
     assert [done.array_verdict(item).is_permitted for item in done.arrays] == [False, True]
     assert [design[-1] for design in held(both)[2]] == ["NG", "OK"]
     row = page_of(both, "summary").table("Governing").rows[0]
-    assert (row["Of"], row["Verdict"]) == ("A1", "NG")
+    assert (row["Item"], row["Verdict"]) == ("A1", "NG")
     assert "(Section 5 compares A1, A2 with a row" in page_of(both, "basis")
     # Its row slides farther here than it does: it is given the result of the other one.
     far, near = both.assessment.linked
@@ -190,7 +194,15 @@ FAR = projects.roof_object("RTU-8", "fixed object", 190, 200, 35, 42)
 NOWHERE = {"id": "OLD", "kind": "fixed object"}
 ARRAYS = [projects.array("A1", 0.5), projects.array("A2", 0.5, x=220)]
 CAPTION = "Adjacent items"
-PARTS = ["Array", "Neighbor", "Kind", "In plan [in]", "Twice displ. [in]", "Clearance", "Remark"]
+PARTS = [
+    "Array",
+    "Adjacent item",
+    "Type",
+    "On plan [in]",
+    "Twice displ. [in]",
+    "Clearance",
+    "Remark",
+]
 
 
 def page(**changes):

@@ -56,9 +56,9 @@ def test_a_motion_is_generated_where_all_its_files_state_a_hold(
     accepted = shaking_acceptance(shaking, targets(book.input))
     assert [motion.is_generated for motion in accepted.motions] == generated
     titles = " ".join(row.title for row in accepted.rows)
-    assert ("Strong motion of generated motions: hold of the envelope" in titles) is any(generated)
+    assert ("Strong-motion duration of generated motions (hold time)" in titles) is any(generated)
     assert ("Correlation" in titles) is any(generated)
-    assert ("Strong motion of records" in titles) is not all(generated)
+    assert ("Strong-motion duration of records" in titles) is not all(generated)
 
 
 @pytest.mark.parametrize(("changes", "hold_s"), [({}, 20.0), ({"to_s": 5.0}, math.nan)])
@@ -233,7 +233,7 @@ def test_the_comparison_has_the_years_of_its_own_arrays():
     assert row["Array"] == "A1"
     assert row["PRD of 700 years"] == "none"
     assert row["Largest distance, mean"] == "4.0 in (100 mm)"
-    assert row["95 %"] == "15.8 in (400 mm)"
+    assert row["95%"] == "15.8 in (400 mm)"
     assert f"{SUPPORTING}: neither a design displacement nor a verdict depends on it" in text
     assert "Here; Survey; Model 2018; Vs30 of the curve 760 m/s" in text
     design = page_of(assessments.package(), "comparison").tables
@@ -247,7 +247,7 @@ def test_a_former_mean_without_the_lives_that_have_no_distance_is_none():
     text = page_of(with_study(YEARS | {"arrays": [ARRAY | {"largest": {"never": never}}]}),
                    "comparison")  # fmt: skip
     row = text.table("For comparison with the design displacement").rows[0]
-    assert (row["Largest distance, mean"], row["95 %"]) == ("none", "15.8 in (400 mm)")
+    assert (row["Largest distance, mean"], row["95%"]) == ("none", "15.8 in (400 mm)")
 
 
 @pytest.mark.parametrize(("mu", "is_said"), [(0.4, True), (None, False)])

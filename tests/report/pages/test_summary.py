@@ -55,7 +55,7 @@ def test_what_is_alike_of_several_arrays_or_clearances_is_said_once():
     (one,) = [check for check in done.open if check.id == "interconnection"]
     assert one.arrays == ("A1", "A2", "A3")
     row = page_of(done, "limits").table("All checks").row("Interconnection strength")
-    assert row["Of"] == "A1 to A3"
+    assert row["Item"] == "A1 to A3"
     assert "not entered" in row["Found"]
     arrays = [projects.array(f"A{k}", 0.5, x=120 * k, y=20) for k in (1, 2, 3)]
     rows = [projects.clearance("A1", "A2", 2.0), projects.clearance("A2", "A3", 2.0)]
@@ -81,7 +81,7 @@ def test_a_requirement_that_is_found_differently_is_one_row_with_each_array_befo
     done = projects.assess_input(projects.project(arrays=arrays), projects.motions(1, seconds=4.0))
     row = page_of(done, "limits").table("All checks").row("Interconnection strength")
     # 1 lb = 4.448 N; provided is rounded down
-    assert (row["Of"], row["Found"]) == ("A1 to A3", "2 lb (0.01 kN)")  # the worst
+    assert (row["Item"], row["Found"]) == ("A1 to A3", "2 lb (0.01 kN)")  # the worst
     assert row["Required"] == "≥ 4374 lb (19.46 kN) (A1)"
 
 
@@ -145,7 +145,7 @@ def test_deleting_the_row_of_a_clearance_lowers_nothing():
         names.append((row["Governing clearance"], row["D/C"]))
         failed = page_of(made, "summary").table("Governing").rows[0]
         assert failed["Verdict"] == "NG"
-        assert "A1 to RTU-9" in failed["Of"] + failed["Check"]
+        assert "A1 to RTU-9" in failed["Item"] + failed["Check"]
         assert "One of two clearances is satisfied." in page_of(made, "letter")
     assert ratios[0] == pytest.approx(ratios[1])
     assert names == [("RTU-9", names[0][1]), ("RTU-9 (not entered)", names[0][1])]
@@ -227,7 +227,7 @@ def test_a_low_parapet_does_not_qualify_by_the_heights_of_the_package():
     edge = projects.roof_object("N", "edge with parapet", 0, 220, 170, 171, height=20 * INCH)
     package = assessments.package(objects=[edge], clearances=[projects.clearance("A3", "N", 6.0)])
     row = page_of(package, "plan").table("Parapets").row("N")
-    assert (row["Beside"], row["Result"]) == ("A3", "does not qualify")
+    assert (row["Arrays"], row["Result"]) == ("A3", "does not qualify")
     assert row["Top above the roof [in]"] == "20.0"
     of_center = float(row["Center of gravity [in]"])
     assert float(row["Top above c.g. [in]"]) == pytest.approx(20.0 - of_center, abs=0.05)
@@ -248,7 +248,7 @@ def test_the_plan_says_which_displacement_a_separation_takes():
             None,
             "A1 40.0 in (1016 mm) (support spacing; no base dimension entered).",
         ),
-        ("ASCE 7-16", 1.524, "least spacing of the supports: A1 40.0 in (1016 mm)."),
+        ("ASCE 7-16", 1.524, "smallest support spacing: A1 40.0 in (1016 mm)."),
     ],
 )
 def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_set, base_m, words):

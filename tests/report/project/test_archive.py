@@ -63,12 +63,12 @@ TRUNCATED = f"not a workbook, or truncated; {REOPEN}"
 @pytest.mark.parametrize(
     ("content", "line"),
     [
-        (b"", "empty file; start again from a fresh workbook (roofslip new FOLDER)"),
+        (b"", "empty file; start again with a new workbook (roofslip new FOLDER)"),
         (b"name,number\n", TRUNCATED),
         (b"PK\x03\x04" + bytes(50), TRUNCATED),
         (OLE, f"an old Excel workbook (.xls) by its content; {SAVE_AS}"),
         (OLE + "EncryptedPackage".encode("utf-16-le"),
-         "protected with a password; save it without one"),
+         "protected with a password; save it without a password"),
         (zipped(), f"a zip archive, but not a workbook; {SAVE_AS}"),
         (zipped(**{"a.txt": "a"}), f"a zip archive, but not a workbook; {SAVE_AS}"),
         (zipped(mimetype="x", **{"content.xml": "<a/>"}),
@@ -94,10 +94,10 @@ def test_a_file_name_that_is_not_a_workbook_is_rejected(tmp_path, name, kind):
 
 
 BOOK, RELATIONS, STYLES = "xl/workbook.xml", "xl/_rels/workbook.xml.rels", "xl/styles.xml"
-BESIDE = "keep records in files beside it"
+BESIDE = "keep records in files next to it"
 OTHERS = (
     f"xl/odd.xml: more than {MAX_OTHERS:,} comments, formats and the like; copy the inputs into a"
-    " fresh workbook (roofslip new FOLDER)"
+    " new workbook (roofslip new FOLDER)"
 )
 
 
@@ -180,7 +180,7 @@ def test_tags_are_counted_before_anything_is_parsed(tmp_path):
         ("job/A 101.xlsx", "job/roof.xlsx", "did you mean '{}/job/A 101.xlsx'?"),
         ("job.xlsx", "job", "did you mean '{}/job.xlsx'?"),
         ("job/~$input.xlsx", "job",
-         "use a workbook, or a folder that holds input.xlsx"),
+         "use a workbook, or a folder that contains input.xlsx"),
     ],
 )  # fmt: skip
 def test_a_workbook_that_is_there_is_suggested(tmp_path, there, asked, told):
@@ -190,7 +190,7 @@ def test_a_workbook_that_is_there_is_suggested(tmp_path, there, asked, told):
 
 
 def test_a_missing_file_is_reported(tmp_path):
-    wanted = "use a workbook, or a folder that holds input.xlsx"
+    wanted = "use a workbook, or a folder that contains input.xlsx"
     assert problems(tmp_path / "none.xlsx") == (f"no such file; {wanted}",)
     assert problems(tmp_path) == (f"no such file; {wanted}",)
     os.mkfifo(tmp_path / "input.xlsx")
@@ -228,7 +228,7 @@ def test_a_workbook_of_too_many_parts_or_bytes_is_rejected(tmp_path):
     path = tmp_path / "input.xlsx"
     with path.open("wb") as file:
         file.truncate(101_000_000)
-    assert problems(path) == ("larger than 100 MB; keep records in files beside it",)
+    assert problems(path) == ("larger than 100 MB; keep records in files next to it",)
 
 
 LAUGHS = """<!DOCTYPE x [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;">]>"""

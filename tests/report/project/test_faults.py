@@ -163,7 +163,7 @@ CONTRADICTIONS = [
      " delete one"),
     ({"Clearances/3/Provided clearance": 61},
      "Clearances/3/Provided clearance is 61.0 in (1549 mm), but A2 and RTU-1 are 60.0 in (1524 mm)"
-     " apart in plan; reduce it, or correct the rectangles in <Arrays/A2/x from:y to> and"
+     " apart on the plan; reduce it, or correct the rectangles in <Arrays/A2/x from:y to> and"
      " <Objects/RTU-1/x from:y to>"),
     ({"Objects/RTU-1/y from": 70},
      "Clearances/3/Provided clearance is 60.0 in (1524 mm), but A2 and RTU-1 overlap in plan;"
@@ -198,7 +198,7 @@ CONTRADICTIONS = [
     (row_cells("Motions/M1", {"High-pass corner": 20, "Low-pass corner": 20}),
      "Motions/M1/Low-pass corner is 20 Hz; enter more than the high-pass corner, 20 Hz"),
     ({"Motions/M2/Recorded at": "ground"},
-     "Building/Period T1 is missing; enter it, or a structure type: a motion is recorded at the"
+     "Building/Period T1 is missing; enter it, or a structure type, because a ground motion is"
      " ground"),
     ({"Building/Period T1": 0.2, "Building/Period T2": 0.3},
      "Building/Period T2 is 0.3 s; enter at most period T1, 0.2 s, or leave it blank"),
@@ -307,7 +307,7 @@ def test_a_gap_may_be_rounded_by_half_an_inch_or_one_percent_up_to_an_inch(tmp_p
     assert read_workbook(type_into(make(tmp_path), changes)).input.clearances
 
 
-FRESH = "copy it from a fresh workbook (roofslip new FOLDER)"
+FRESH = "copy it from a new workbook (roofslip new FOLDER)"
 HEADING = f"write it here in its own column, or {FRESH}"
 LENGTHS = "write one of in, ft, mm, cm, m"
 LOW_SDC = "Prescriptive displacement in SDC A, B, C"

@@ -44,16 +44,17 @@ CASES = [
      "friction coefficient is 0.46, not more than the tangent of the slope, 0.466: the array slides"
      " under its own weight; correct one of them"),
     ("arrays", 0, {"slope_value": 0.02, "slope_unit": "percent"}, "slope A1",
-     "slope is 0.02 percent; 2 %? Correct the slope, or acknowledge it"),
+     "slope is 0.02 percent; did you mean 2%? Correct it, or acknowledge it"),
     ("site", None, {"roof_height_m": 37 * FT}, "height z",
-     "height of the array z is 37.00 ft (11.28 m), above the structure height h of 36.00 ft (10.97"
+     "roof height z is 37.00 ft (11.28 m), above the structure height h of 36.00 ft (10.97"
      " m); correct one of them"),
     ("clearances", 1, {"direction": "upslope"}, "direction A1 to S upslope",
-     "direction is 'upslope', but S lies 'downslope' from A1 in plan; correct the direction, the"
+     "direction is 'upslope', but S is downslope of A1 on the plan; correct the direction, the"
      " plan, or the downslope direction"),
     ("clearances", 0, {"provided_m": 10 * INCH}, "clearance A1 to A2 cross-slope",
-     "provided clearance is 10.0 in (254 mm), but A1 and A2 are 120.0 in (3048 mm) apart in plan;"
-     " correct it or the plan"),
+     "provided clearance is 10.0 in (254 mm), but A1 and A2 are 120.0 in (3048 mm) apart on the"
+     " plan;"
+     " correct the clearance or the plan"),
 ]  # fmt: skip
 
 
@@ -67,16 +68,20 @@ def clearances_divided(*ratios):
 
 @pytest.mark.parametrize(
     ("ratio", "words"),
-    [(12.0, "1/12 of the plan: in feet?"), (1000.0, "1/1000 of the plan: in meters?")],
+    [
+        (12.0, "1/12 of the distances on the plan; are they in feet?"),
+        (1000.0, "1/1000 of the distances on the plan; are they in meters?"),
+    ],
 )
 def test_clearances_in_one_wrong_unit_are_one_warning(ratio, words):
     two = warnings(clearances_divided(ratio, ratio))
     assert list(two) == ["clearance A1 to A2 cross-slope", "clearance A1 to S downslope"]
     found = warnings(clearances_divided(*[ratio] * 5))
     (name,) = (name for name in found if name.startswith("clearance"))
-    assert name == f"clearances {words.partition(': ')[2].removesuffix('?')}"
+    assert name == f"clearances {words.partition('are they ')[2].removesuffix('?')}"
     assert found[name] == (
-        f"four clearances are {words} The first is A1 to A2 cross-slope; correct them or the plan"
+        f"four clearances are {words} The first is A1 to A2 cross-slope; correct the clearances"
+        " or the plan"
     )
 
 
@@ -90,9 +95,9 @@ def test_an_improbable_value_gives_one_warning(section, index, change, name, tex
 @pytest.mark.parametrize(
     ("far_ft", "roof", "text"),
     [
-        (2_000, {}, "OLD is 1800.00 ft (548.64 m) from A2: is it a leftover? Delete it"),
+        (2_000, {}, "OLD is 1800.00 ft (548.64 m) from A2; was it left over? Delete it"),
         (1_500, {}, ""),
-        (700, sides(0, 300, 0, 121), "OLD is 400.00 ft (121.92 m) from the roof: is it a"),
+        (700, sides(0, 300, 0, 121), "OLD is 400.00 ft (121.92 m) from the roof; was it l"),
         (590, sides(0, 300, 0, 121), ""),
     ],
 )
@@ -234,7 +239,7 @@ def of_records(path, **changes):
          "lasts 360 s at a time step of 0.02 s; 300 s or less"),
         (0.02, (15001, 15001), [], ""),
         (0.01, (200, 190), ["note"],
-         "last 10 of 200 samples trimmed, to the length of the shortest component"),
+         "last 10 of 200 samples trimmed to the length of the shortest component"),
         (0.01, (200, 189), ["length M1", "note"],
          "x.csv has 200 samples, and 11 of them are trimmed"),
     ], 3),
@@ -359,7 +364,7 @@ def test_check_prints_one_line_and_counts_all(tmp_path):
     assert done.exit_code == 2
     # After a second, a slow machine says what it does.
     head, *lines = (line for line in done.stderr.splitlines() if not line.startswith("["))
-    assert head == f"{path}: 3 problems found."
+    assert head == f"{path}: 3 errors:"
     assert lines == [
         f"  {', '.join(with_addresses(*WET))}: {WRONG}",
         cell_address(f"  <Arrays/A1/Weight>: {OTHER}"),

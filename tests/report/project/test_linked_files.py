@@ -164,7 +164,7 @@ FAULTS = [
                              ("0.1\n-0.1\n" * 50, "0.99 s as run (100 samples)"))),
     # Most of the weight was gone, or the block was pushed downslope by 1 g.
     ({"still": "1.1\n0.9\n" * 100}, STILL,
-     f"{SECOND} has a mean of 1 g: gravity is in it; use it without, or remove the mean by the"
+     f"{SECOND} has a mean of 1 g: it includes gravity; use it without, or remove the mean by the"
      " column Baseline"),
 ]  # fmt: skip
 
@@ -188,7 +188,7 @@ def test_a_record_that_cannot_be_run_is_refused_at_its_cell(tmp_path, number):
          {"Record units": "units are cm/s2; enter the units of the file, or 'from file'"}),
         ({"Horizontal record": "records/all.csv | 1", "Vertical record": None, "Time step": 0.02,
           "Record units": "from file"},
-         {"Time step": "but the one given is 0.02 s; enter the time step of the file, or leave it"
+         {"Time step": "but 0.02 s was entered; enter the time step of the file, or leave it"
           " blank"}),
         ({"Low-pass corner": 60},
          {"Horizontal record": "horizontal record: x.csv: low-pass corner is 60 Hz; enter"}),
@@ -210,7 +210,7 @@ def test_components_are_trimmed_and_one_of_zeros_is_read_if_the_other_shakes(tmp
     assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 196
     x, z = book.records[:2]
     assert (x.npts, x.npts_trimmed, z.npts_trimmed, z.notes) == (200, 4, 0, ())
-    assert x.notes[-1] == "last 4 of 200 samples trimmed, to the length of the shortest component"
+    assert x.notes[-1] == "last 4 of 200 samples trimmed to the length of the shortest component"
     # Not up to a common end time.
     book = read_workbook(type_into(path, {"Motions/M1/End time": 1.5}))
     assert len(book.motions[0].ax_mps2) == len(book.motions[0].az_mps2) == 151
@@ -270,7 +270,7 @@ def test_a_document_beside_the_workbook_is_read_with_its_hash(workbook, name, pa
 @pytest.mark.parametrize(
     ("name", "said"),
     by_day([("up/letter.pdf", "is a link to a file outside the workbook's folder"),
-     ("records/x.csv", "is no PDF; attach it as a PDF"),
+     ("records/x.csv", "is not a PDF; attach it as a PDF"),
      ("leter.pdf", "does not exist; did you mean 'letter.pdf'?")], 1),
 )  # fmt: skip
 def test_what_may_not_be_attached_is_an_error_of_its_cell(workbook, name, said):

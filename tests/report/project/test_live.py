@@ -90,7 +90,7 @@ def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
         ratios: "D/C, prescriptive (3 cells) was overwritten with 0.5",
     }.items():
         assert words in texts[workbooks.cell_address(place)]
-    fresh = "copy it from a fresh workbook (roofslip new FOLDER)"
+    fresh = "copy it from a new workbook (roofslip new FOLDER)"
     assert all(text.endswith(fresh) for text in texts.values())
     warned = commands.stdout_of("check", path)
     assert all(
@@ -267,7 +267,7 @@ def test_links_to_elsewhere_are_named(tmp_path, name):
 
 
 def elsewhere(name):
-    text = f"the workbook takes values from elsewhere ({name}), of which the saved ones are read:"
+    text = f"the workbook refers to other sources ({name}), whose saved values are used:"
     return "outside", "Project", f"{text} type the values instead"
 
 

@@ -75,7 +75,7 @@ MU = "Arrays/{}/Friction coefficient"
 def test_coefficients_above_the_tested_means_are_reported(tmp_path):
     path = make(tmp_path, arrays=arrays(mu=0.50), friction_tests=TESTS, friction_runs=runs())
     assert problems(path) == with_addresses(
-        f"{MU.format('A1')} is 0.5; the tests give 0.46 (wet, mean of 3 from"
+        f"{MU.format('A1')} is 0.5; the tested mean is 0.46 (wet, 3 runs from"
         f" <{SHEET}/4/Kinetic coefficient>); enter 0.46 or less"
     )
     assert read_workbook(type_into(path, {MU.format("A1"): 0.46})).input
@@ -84,7 +84,7 @@ def test_coefficients_above_the_tested_means_are_reported(tmp_path):
     assert line.startswith(*with_addresses(f"{SHEET}/1/Kinetic coefficient is 'x'"))
     path = make(tmp_path, arrays=arrays(mu_static=0.52), friction_runs=runs())
     assert problems(path) == with_addresses(
-        "Arrays/A1/Static friction is 0.52; the tests give 0.5 (wet); enter 0.5 or less"
+        "Arrays/A1/Static friction is 0.52; the tested value is 0.5 (wet); enter 0.5 or less"
     )
 
 
@@ -122,7 +122,7 @@ def test_a_law_is_compared_at_the_tested_velocities(tmp_path):
     for velocity_mps in (1.0, None):
         assert problems(tested(velocity_mps)) == with_addresses(
             f"<{MU.format('A1')}>: friction coefficient averages 0.6 at the tested velocities; the"
-            f" tests give 0.41 (dry, mean of 3 from <{SHEET}/1/Kinetic coefficient>); reduce it"
+            f" tested mean is 0.41 (dry, 3 runs from <{SHEET}/1/Kinetic coefficient>); reduce it"
         )
 
 
@@ -168,10 +168,10 @@ CELLS = [
      "Links/1/Block friction": ("0.40; 0.45", f"'0.40; 0.45'; {WANTED}"),
      "Links/2/Block friction": (
          "0.40, 0.42",
-         f"'0.40, 0.42', all below the 0.45 at <Arrays/A2/Friction coefficient>; {RANGE}")},
+         f"'0.40, 0.42', all values below the 0.45 at <Arrays/A2/Friction coefficient>; {RANGE}")},
     {"Links/1/Block friction": (
          "0.50, 0.55",
-         f"'0.50, 0.55', all above the 0.45 at <Arrays/A1/Friction coefficient>; {RANGE}"),
+         f"'0.50, 0.55', all values above the 0.45 at <Arrays/A1/Friction coefficient>; {RANGE}"),
      "Links/2/Array": ("A1", "'A1', already entered at <Links/1/Array>; delete one")},
 ]  # fmt: skip
 
@@ -259,7 +259,7 @@ def test_outlines_are_read_in_either_direction_and_refused_in_two_places(tmp_pat
     first, *rest = L_FT[::-1]
     assert list(data.arrays[0].shape.points) == in_meters([first, *rest[::-1]])
     here, before = "<Outlines/5/Outline of>", "<Outlines/3/Outline of>"
-    line = f"outline of 'A1' goes on here after {before}; put all of its rows together"
+    line = f"the outline of 'A1' continues here after {before}; keep all its rows together"
     assert cell_address(f"{here}: {line}") in changed(tmp_path, {"4/Outline of": "A2"})
 
 
@@ -289,10 +289,10 @@ NO_NUMBER = "<Outlines/2/y>: y is "
 @pytest.mark.parametrize(
     ("typed", "begin", "end"),
     by_day([
-        (BEYOND_TWO, f"{FIRST}: A1 has 2 vertices", "; enter at least 3, one to a row"),
+        (BEYOND_TWO, f"{FIRST}: A1 has 2 vertices", "; enter at least 3, one per row"),
         ({"2/x": 30, "2/y": 90},  # across the upper side
          f"{FIRST}: outline of A1 touches or crosses itself near x ",
-         "; enter its vertices in order, none of them twice"),
+         "; enter its vertices in order, each only once"),
         ({"2/y": "nan"}, NO_NUMBER, "; enter a number [ft]"),
         ({"2/y": None}, NO_NUMBER, "; enter a number [ft]"),
     ], 1),
@@ -335,7 +335,7 @@ def test_a_clearance_is_compared_with_the_gap_to_the_outline(tmp_path):
     path = make(tmp_path, **outlined(clearances=[row]) | {"objects": [unit]})
     assert read(path).problems == ()
     (found,) = problems(type_into(path, {"Clearances/1/Provided clearance": 72}))
-    assert "A1 and RTU-1 are 60.0 in (1524 mm) apart in plan" in found
+    assert "A1 and RTU-1 are 60.0 in (1524 mm) apart on the plan" in found
     assert found.endswith(
         cell_address(
             f"reduce it, or correct the outlines in {FIRST} and <Objects/RTU-1/x from:y to>"
@@ -350,5 +350,5 @@ def test_an_object_may_have_an_outline_and_an_array_needs_a_place():
     assert isinstance(data.objects[0].placed, Polygon)
     assert {row.name for row in data.outlines} == {"OLD"}
     changes = outlined() | {"outlines": []}
-    with pytest.raises(ValueError, match="no rectangle and no outline of A1"):
+    with pytest.raises(ValueError, match="no rectangle or outline for A1"):
         project(**changes)

@@ -327,7 +327,7 @@ def test_a_copied_sheet_is_ignored_with_a_warning(tmp_path):
     assert (name, cell) == ("copy Arrays Copy", cell_address("Arrays/heading/ID"))
     assert text == (
         "worksheets 'Arrays' and 'Arrays Copy' both have the labels of Arrays; 'Arrays' is read,"
-        " and 'Arrays Copy' is ignored: delete the one that is not meant"
+        " and 'Arrays Copy' is ignored: delete the one that you do not want"
     )
     ((name, _, _),) = findings_of(edit(make(tmp_path), lambda book: copied(book, "Options")))
     assert name == "copy Options Copy"  # of several parts, named once
@@ -340,7 +340,7 @@ def test_a_sheet_with_some_of_the_headings_is_no_copy(tmp_path):
     assert findings_of(edit(make(tmp_path), change)) == []
 
 
-FRESH = "copy it from a fresh workbook (roofslip new FOLDER)"
+FRESH = "copy it from a new workbook (roofslip new FOLDER)"
 
 
 def remove(sheet):

@@ -300,7 +300,7 @@ def test_what_a_workbook_may_not_have_is_refused(tmp_path, changes, said):
 
 
 def test_inputs_that_are_not_there_or_at_fault_are_refused(tmp_path):
-    with pytest.raises(InputError, match="no input array; enter some of project"):
+    with pytest.raises(InputError, match="unknown input array; choose from project"):
         read(make(tmp_path)).with_(array=[])
     sheet = read(type_into(make(tmp_path), {"Arrays/A1/Weight": "heavy"}))
     with pytest.raises(InputError, match="weight is 'heavy'"):

@@ -342,6 +342,6 @@ def test_a_percentage_is_an_error_with_the_number_that_excel_holds(tmp_path):
         slope.value, slope.number_format = 0.05, "0.0%"
 
     assert problems(edit(make(tmp_path), percent)) == with_addresses(
-        "Arrays/A2/Slope is a percentage (5%, which Excel holds as 0.05); enter a number of 0 or"
+        "Arrays/A2/Slope is a percentage (5%, which Excel stores as 0.05); enter a number of 0 or"
         " more, formatted as a number"
     )

@@ -50,16 +50,17 @@ def hide_options(path, state):
 @pytest.mark.parametrize(
     ("state", "said"),
     by_day(
-        [("hidden", "hidden"), ("veryHidden", "hidden so that Excel's menu does not list it")], 1
+        [("hidden", "hidden"), ("veryHidden", "hidden so that the menu of Excel does not list it")],
+        1,
     ),
 )
 def test_an_override_on_a_hidden_sheet_is_a_warning(tmp_path, state, said):
     sheet, column, row = cell_of("Options/1/Value")
     ((name, _, text),) = findings_of(hide_options(make(tmp_path), state))
     assert name == f"hidden sheet {sheet}"
-    assert text.startswith(f"the worksheet is {said}, and cells B")
+    assert text.startswith(f"the worksheet is {said}, but cells B")
     assert has(text, f"{column}{row}")
-    assert text.endswith(" on it are read: unhide it, or clear what is not meant")
+    assert text.endswith(" on it are used: unhide it, or clear the cells that you do not want")
 
 
 def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
@@ -73,8 +74,8 @@ def test_hidden_rows_and_columns_are_one_warning_with_their_cells(tmp_path):
     assert name == f"hidden {sheet}"
     assert has(text, f"{letter}{row - 2}", f"{letter}{row - 1}", f"B{row}")  # with the heading
     assert not has(text, f"B{row - 1}")
-    assert text.endswith(" are in hidden rows or columns, and are read: show them, or clear what"
-                         " is not meant")  # fmt: skip
+    assert text.endswith(" are in hidden rows or columns but are used: unhide them, or clear the"
+                         " cells that you do not want")  # fmt: skip
     assert cell.startswith(f"{sheet}!")
 
 
@@ -119,7 +120,7 @@ def test_a_row_that_a_filter_hides_is_filtered_out(tmp_path, change):
 
     ((name, cell, text),) = findings_of(edit(make(tmp_path), hide))
     assert (name, cell) == (f"filtered out {sheet}", f"{sheet}!B{row}")
-    assert "are in rows that a filter hides, and are read: clear the filter, and delete" in text
+    assert "are in rows that a filter hides but are used: clear the filter, and delete" in text
 
 
 def test_a_row_that_is_struck_through_is_a_warning_and_a_blank_one_is_none(tmp_path):
@@ -132,8 +133,8 @@ def test_a_row_that_is_struck_through_is_a_warning_and_a_blank_one_is_none(tmp_p
                 cell.font = Font(strike=True)
 
     text = (
-        f"cells B{row}:{letter}{row} are struck through, and are read: clear what is not meant,"
-        " and remove the strikethrough from the rest"
+        f"cells B{row}:{letter}{row} are struck through but are used: clear the cells that you do"
+        " not want, and remove the strikethrough from the others"
     )
     assert findings_of(edit(path, change)) == [(f"struck through {sheet}", f"{sheet}!B{row}", text)]
 
@@ -170,8 +171,8 @@ def test_a_number_that_cannot_be_seen_is_a_warning(tmp_path, look):
     sheet, _, cell = place.partition("!")
     assert (name, place) == (f"invisible {sheet}", cell_address("Arrays/A1/Friction coefficient"))
     assert text == (
-        f"cell {cell} cannot be seen for the color of the text or the number format, and is read:"
-        " change it, or clear what is not meant"
+        f"cell {cell} is invisible because of the text color or the number format but is used:"
+        " change the format, or clear the cells that you do not want"
     )
 
 

@@ -102,7 +102,7 @@ BAD = {
 @pytest.mark.parametrize("why", BAD)
 def test_json_that_two_programs_could_read_as_two_things_is_refused(why):
     """Without the words of its reader."""
-    said = r"no JSON|the key \"\w+\" is given twice|\".+ is larger than any number of a package"
+    said = r"not JSON|the key \"\w+\" appears twice|\".+ is larger than any number of a package"
     with pytest.raises(InputError, match=rf"^results.json is damaged: ({said})$"):
         parsed(BAD[why], "results.json")
 
@@ -117,9 +117,9 @@ def test_json_is_read_as_it_is_and_types_shared_numbers_and_letters_are_compared
     assert list(differences({"a": 1.1}, ours, shared=True)) == ["a is 1.1; the input gives 1.0"]
     assert len(list(differences({"list": [1.0, 2.1]}, ours, shared=True))) == 1
     assert first_other_word("RTU- 1\n10 .", "RTU-1 10.") == ""
-    assert first_other_word("a b 24.0 in", "ab 24.1 in") == '"24.0" where the input gives "24.1"'
-    assert first_other_word("24.0 in", "24.0") == '"in" where the input gives nothing'
-    assert first_other_word("24.0", "24.0 in") == 'nothing where the input gives "in"'
+    assert first_other_word("a b 24.0 in", "ab 24.1 in") == '"24.0" where the input produces "24.1"'
+    assert first_other_word("24.0 in", "24.0") == '"in" where the input produces nothing'
+    assert first_other_word("24.0", "24.0 in") == 'nothing where the input produces "in"'
 
 
 @pytest.mark.parametrize(
@@ -148,7 +148,7 @@ def test_an_object_of_many_keys_is_refused_in_a_time_that_grows_as_their_number(
         return f"{{{', '.join([*keys, keys[-1]])}}}".encode()
 
     def read(content):
-        with pytest.raises(InputError, match=r'the key "k\d+" is given twice'):
+        with pytest.raises(InputError, match=r'the key "k\d+" appears twice'):
             parsed(content, "results.json")
 
     assert not grows_faster(read, twice, 2_000)

@@ -72,7 +72,7 @@ def after_record_changed(whole, given):
 def test_a_package_is_the_same_to_the_byte_unless_a_record_was_changed(whole, after_record_changed):
     """A process of its own wrote it; this one has laid out a package before."""
     told = commands.stdout_of("verify-package", whole / "out" / "calc-package.pdf")
-    assert "Same: the embedded input gives this package byte for byte." in told
+    assert "Same: the embedded input reproduces this package byte for byte." in told
     assert sorted(path.name for path in whole.iterdir()) == ["input.xlsx", "out", "records"]
     assert sorted(path.name for path in (whole / "out").glob("*.pdf")) == ["calc-package.pdf"]
     done = after_record_changed
@@ -111,7 +111,7 @@ def test_a_package_of_another_commit_is_that_of_other_software(whole, tmp_path):
     )
     assert done.returncode == 4, done.stderr
     made_by = os.environ["ROOFSLIP_VERSION"]
-    assert f"Roofslip {made_by} made it: install that version to compare all" in done.stdout
+    assert f"Roofslip {made_by} created it: install that version to compare" in done.stdout
 
 
 @pytest.mark.nightly
@@ -198,7 +198,7 @@ def test_a_name_with_an_accent_is_one_name_in_the_two_encodings_of_the_renderer(
 
 def test_an_input_that_no_longer_runs_differs(data, given):
     path = given(data, with_file(RECORD, b"none"))
-    assert "its input does not run: " in commands.output_of("verify-package", path, exit_code=1)
+    assert "its input cannot be run: " in commands.output_of("verify-package", path, exit_code=1)
 
 
 def test_the_end_of_an_attached_pdf_is_not_that_of_the_package(data):
@@ -330,7 +330,7 @@ def test_records_that_were_left_out_are_taken_from_a_folder_and_their_hash_is_ch
 def test_the_same_bytes_are_the_same_and_more_before_them_are_not(proof, data):
     found = proof(data)
     assert (found.answer, found.reasons, found.is_to_be_read) == (Agreement.SAME, (), False)
-    with pytest.raises(InputError, match="is no PDF"):
+    with pytest.raises(InputError, match="is not a PDF"):
         compared(opened(b"\n" + data), opened(data))
 
 
@@ -342,7 +342,7 @@ def test_what_was_only_written_again_is_not_the_same(proof, data, tampered, few_
     assert found.reasons == ("drawings not compared: read the regenerated package",)
     assert found.is_to_be_read
     found = tampered(few_sheets, tampering.of_other_software, tampering.meant_otherwise)
-    assert "where the input gives" in found.reasons[0]
+    assert "where the input produces" in found.reasons[0]
 
 
 @pytest.mark.parametrize("kind", by_day(tampering.OF_THE_FILE, 1), ids=lambda kind: kind.__name__)
@@ -412,8 +412,8 @@ def test_other_versions_explain_drawings_and_words_and_no_number(tampered, data,
     found = tampered(few_sheets, of_another_version)
     assert found.answer == Agreement.PARTLY
     (told,) = found.reasons
-    assert told.startswith("Roofslip 0.0.9 made it: install that version")
-    assert "words and drawings not compared: read the regenerated package" in told
+    assert told.startswith("Roofslip 0.0.9 created it: install that version")
+    assert "text and drawings not compared: read the regenerated package" in told
 
     def changed(pdf):
         of_another_version(pdf)

@@ -83,7 +83,7 @@ def test_json_has_velocities_and_what_the_low_velocity_coefficient_alone_gives()
     for array in document["arrays"]:
         assert array["peak_speed_mps"] == max(one["peak_speed_mps"] for one in array["runs"])
     laws = [array["friction_as_run"] for array in document["arrays"]]
-    assert laws == ["0.45", "0.30 to 0.45 with velocity"]
+    assert laws == ["0.45", "0.30–0.45 (velocity-dependent)"]
     (alone,), (gap,) = document["low_velocity"]["arrays"], document["low_velocity"]["clearances"]
     assert (alone["id"], alone["mu"]) == ("A3", 0.30)
     assert alone["design_m"] == assessment.low_velocity.arrays[0].design_m

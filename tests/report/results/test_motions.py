@@ -30,7 +30,7 @@ def rows(*words):
 def test_a_folder_is_listed_and_where_records_were_recorded_asked(library, tmp_path):
     told = commands.stdout_of(*rows(library))
     assert "KJM     x  kobe/KJM-x.csv" in told
-    assert "skipped: lone.csv: neither its heading (none) nor its name has a component" in told
+    assert "skipped: lone.csv: neither its heading (none) nor its name states a component" in told
     path = make(tmp_path / "p")
     assert "use --at roof or --at ground" in commands.errors_of(*rows(library, path))
     assert not (tmp_path / "p" / "records" / "kobe").exists()
@@ -120,7 +120,7 @@ def test_a_zip_is_checked_and_unpacked_elsewhere(library, tmp_path, name):
     assert "kobe    x  x.csv" in commands.stdout_of(*rows(zipped))  # the zip gives the name
     with zipfile.ZipFile(zipped, "a") as archive:
         archive.writestr(name, "0,0")
-    assert "is no path within a folder" in commands.errors_of(*rows(zipped))
+    assert "is not a path within a folder" in commands.errors_of(*rows(zipped))
 
 
 def test_a_folder_that_is_not_there_is_asked_about_and_one_elsewhere_is_no_record(

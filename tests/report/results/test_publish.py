@@ -134,7 +134,10 @@ def test_a_set_cut_off_before_any_replacement_is_told_and_made_whole_by_the_next
         publish(NEW, tmp_path)
     else:
         mixed = {"b.txt": "a.txt", "c.txt": "a.txt, b.txt", STAMP: "a.txt, b.txt, c.txt"}[stop]
-        with pytest.warns(match=rf"not as {STAMP} says: {mixed}; a run was cut off, or files were"):
+        with pytest.warns(
+            match=rf"not as {STAMP} says: {mixed}; a run was interrupted, or"
+            r" files were"
+        ):
             publish(NEW, tmp_path)
     assert contents(tmp_path) == NEW
     assert is_whole(tmp_path)
@@ -243,7 +246,7 @@ def test_an_input_is_not_replaced_by_an_output(tmp_path, way):
     elif way == "a hard link":
         path = tmp_path / "input.xlsx"
         os.link(book, path)
-    with pytest.raises(InputError, match=r"is an input of this run, and would be replaced by its"):
+    with pytest.raises(InputError, match=r"is an input of this run and would be replaced by its"):
         check_apart(["results.xlsx"], folder, [path])
     check_apart(["results.xlsx"], tmp_path, [path])
 

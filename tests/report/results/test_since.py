@@ -232,7 +232,7 @@ def test_results_of_version_0_3_are_compared_without_their_checks(assessment, do
 def test_another_version_is_named(document, version, found):
     document["schema_version"] = version
     with pytest.raises(
-        InputError, match=rf"schema_version {found}.*reads 2 and 3[\s\S]*write it again"
+        InputError, match=rf"schema_version {found}.*reads 2 and 3[\s\S]*recreate it"
     ):
         former(document)
 
@@ -251,7 +251,9 @@ def test_a_wrong_type_is_named_with_its_place(document, where, value):
     put(document, where, value)
     place = r"\.".join(map(str, where))
     with pytest.raises(
-        InputError, match=rf"^x: {place} is not as `report` writes it; the file is damaged"
+        InputError,
+        match=rf"^x: {place} is not in the form that `report` writes; the file is"
+        r" damaged",
     ):
         former(document)
 
@@ -300,7 +302,7 @@ def test_what_is_not_json_is_an_input_error_without_the_words_of_its_reader(text
     with pytest.raises(InputError) as caught:
         former_from(text, "x")
     assert re.fullmatch(
-        rf"x: is no results.json or is damaged( \(no object\))?; {AGAIN}", str(caught.value)
+        rf"x: not a results.json file, or damaged( \(not an object\))?; {AGAIN}", str(caught.value)
     )
 
 

@@ -301,7 +301,7 @@ def test_two_axes_say_how_large_the_error_of_a_displacement_is(tmp_path):
         )
         for letters in ("x", "xy")
     }  # fmt: skip
-    wanted = "In two axes the error of a displacement is at most 0.01 % of the PRD."
+    wanted = "In two axes the error of a displacement is at most 0.01% of the PRD."
     assert [wanted in text for text in said.values()] == [False, True]
 
 
@@ -316,7 +316,7 @@ def test_warnings_on_the_workbook_are_printed_with_the_basis(results):
 CHANGING = (
     (r"Program( \|)? Roofslip.*", "Program <versions>"),
     (r"Study( \|)? [0-9a-f]{16}", "Study <hash>"),
-    (r"all parts ran on .*?: a repetition gives the same bits", "<machine>"),
+    (r"all batches ran on .*?: a repetition produces the same bits", "<machine>"),
 )
 
 

@@ -114,7 +114,7 @@ def test_without_s_ds_the_displacement_is_called_before_the_floor(tmp_path):
     text = pages.study(found)
     assert "before its floor of 0.5† times the prescriptive displacement, which follows" in text
     assert "For a design displacement before the floor of at most" in text
-    assert "the floor alone" not in text
+    assert "the floor by itself" not in text
 
 
 def test_the_manifest_states_the_rule_and_the_answers_have_the_design_displacement(results):
@@ -226,7 +226,7 @@ def test_chances_and_medians_are_rounded_to_the_safe_side(tmp_path):
     arrays = (StudyArray(id="S1", mat="A", slope_deg=2.0, clearance_m=0.1),)
     found = run(tmp_path, study_arrays=arrays, site_intensity=1.0, intensities="0.2 to 2 by 0.2")
     array = found.arrays[0]
-    for value, text in ((1.0, "100 %"), (0.9961, "100 %"), (0.1441, "15 %"), (0.00123, "0.13 %")):
+    for value, text in ((1.0, "100%"), (0.9961, "100%"), (0.1441, "15%"), (0.00123, "0.13%")):
         chance = dataclasses.replace(array.exceedances[0], value=value, low=value, high=value)
         one = dataclasses.replace(array, exceedances=(chance,))
         line = headline(dataclasses.replace(found, arrays=(one,)))[-1]

@@ -88,7 +88,7 @@ P58 = "seismic/building/component/FEMA P-58 2nd Edition"
          ({"intensity": Intensity.PPV}, ("Peak Floor Velocity", "mps"),
           "the peak horizontal velocity of the", ROOF),
          ({"intensity": Intensity.SA1}, ("Spectral Acceleration|1.0", "g"),
-          "the horizontal spectral acceleration at 1 s with 5 % damping of the", ROOF)],
+          "the horizontal spectral acceleration at 1 s with 5% damping of the", ROOF)],
         1,
     ),
 )  # fmt: skip
@@ -261,4 +261,6 @@ def test_the_runs_of_the_capacities_are_counted_and_no_more_than_a_dry_run_says(
     done = command(folder, "--dry-run")
     assert f"at most {said.capacity_runs:,} more runs for the capacities" in done.output
     assert f", and {made.capacity_runs:,} for the capacities" in headline(made)[0]
-    assert f" {made.capacity_runs:,} more runs find the capacities" in pages.study(made)
+    assert f" {made.capacity_runs:,} more runs were made to find the capacities" in pages.study(
+        made
+    )

@@ -29,7 +29,7 @@ def test_a_study_does_not_replace_its_own_workbook(tmp_path):
     content = book.read_bytes()
     done = command(book, "--out", folder)
     assert done.exit_code == 2, done.output
-    assert "is an input of this run, and would be replaced by its study.xlsx" in done.output
+    assert "is an input of this run and would be replaced by its study.xlsx" in done.output
     assert book.read_bytes() == content
     assert not (folder / "runs").exists()
 
@@ -49,7 +49,9 @@ def test_a_study_does_not_replace_the_results_of_another_workbook(made, tmp_path
     done = command(book)
     assert done.exit_code == 2
     told = done.output.splitlines()
-    assert told[1].startswith(f"  {out / 'study'}: has the results of input.xlsx, not of b.xlsx;")
+    assert told[1].startswith(
+        f"  {out / 'study'}: contains the results of input.xlsx, not of b.xlsx;"
+    )
     assert told[2].startswith(f"{out / 'study' / 'study.pdf'} and ")
     study, before = (folder / "study.xlsx" for folder in (out / "study", made[0] / "out" / "study"))
     assert study.read_bytes() == before.read_bytes()
@@ -123,7 +125,7 @@ def test_the_command_takes_forged_parts_over_only_when_told_to(made, tmp_path):
     assert "on the word of --trust-parts" in done.output
     done = command(folder)
     assert done.exit_code == 0, done.output
-    assert "warning: computed again: 1 part (" in done.output
+    assert "warning: recomputed:" in done.output
     assert "on the word of" not in done.output
 
 
@@ -197,7 +199,7 @@ def test_a_study_whose_key_cannot_be_kept_says_what_to_do_before_it_runs(state, 
     done = command(folder)
     assert done.exit_code == 2
     assert f"{state / 'roofslip'}" in done.output
-    assert "cannot be kept there (Not a directory)" in done.output
+    assert "cannot be stored there (Not a directory)" in done.output
     assert "set XDG_STATE_HOME to a folder of yours" in done.output
     assert not (folder / "out").exists()
 

@@ -184,7 +184,7 @@ def test_other_inputs_run_everything_again_and_leave_no_old_part(copy):
     full = finished(folder, manifest, list(done.values()))
     assert len(list(folder.glob("part-*"))) == len(fewer.parts)
     assert sum(full["models"].values()) == fewer.rows
-    assert full["agreement"].startswith("all parts ran on one processor model")
+    assert full["agreement"].startswith("all batches ran on one processor model")
 
 
 @pytest.mark.quick

@@ -151,8 +151,8 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
          ("<Study/S_DS of the motions>: S_DS of the motions is missing",)),
         ({"intensity": Intensity.PGA},
          ("<Study/Intensity measure>: is PGA, but the motions are roof motions",)),
-        ({"folder": "elsewhere"}, (f"{FOLDER}: 'elsewhere' is no folder",)),
-        ({"folder": "../"}, (f"{FOLDER}: '..' is no folder",)),
+        ({"folder": "elsewhere"}, (f"{FOLDER}: 'elsewhere' is not a folder",)),
+        ({"folder": "../"}, (f"{FOLDER}: '..' is not a folder",)),
         ({"recorded_at": "ground"}, ("Buildings!", "at least one building")),
         ({"buildings": (StudyBuilding(id="b", period_s=0.5),)},
          ("<Buildings/1/ID>", "roof motions")),
@@ -165,7 +165,7 @@ def test_an_ordinary_workbook_is_told_what_to_do(tmp_path):
         ({"site_intensity": 1.0, "study_arrays": ()},
          ("<Study/Intensity at the site>: is entered, but no array is",)),
         ({"site_intensity": 1.0, "intensity_beta": 0.2, "sampling": Sampling.ALL_COMBINATIONS},
-         ("<Study/Dispersion of intensity>: all combinations take the median",)),
+         ("<Study/Dispersion of intensity>: all combinations use the median",)),
         ({"record_beta": 0.4},
          ("<Study/Record-to-record source>: the record-to-record dispersion needs its source",)),
         ({"slopes_deg": "0 to 45 by 0.1", "intensities": "1 to 100 by 0.25",
@@ -197,11 +197,15 @@ def test_cells_of_a_wrong_kind_are_all_listed(tmp_path):
                 lambda folder: (folder / "M2-z.csv").unlink(),
                 "motion M2 has 1 components, the first has 2",
             ),
-            ("xz", lambda folder: (folder / "M1-x.csv").unlink(), "'records' has no record M1-x"),
+            (
+                "xz",
+                lambda folder: (folder / "M1-x.csv").unlink(),
+                "'records' contains no record M1-x",
+            ),
             (
                 "x",
                 lambda folder: [path.unlink() for path in folder.iterdir()],
-                "'records' has no record",
+                "'records' contains no record",
             ),
         ],
         2,
@@ -242,8 +246,8 @@ def test_what_a_study_reads_from_hidden_cells_is_a_warning(tmp_path):
     edit(folder / "input.xlsx", lambda book: setattr(book["Mats"], "sheet_state", "hidden"))
     ((cell, text),) = plan(folder).warnings
     assert cell.startswith("Mats!")
-    assert text.startswith("the worksheet is hidden, and cells ")
-    assert text.endswith(" on it are read: unhide it, or clear what is not meant")
+    assert text.startswith("the worksheet is hidden, but cells ")
+    assert text.endswith(" on it are used: unhide it, or clear the cells that you do not want")
     shown = command(folder, "--dry-run")
     assert f"warning: {cell}: {text}" in shown.stderr
     assert " MB of disk space" in shown.output

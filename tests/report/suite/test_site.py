@@ -80,7 +80,9 @@ def test_what_the_workbook_lacks_or_has_out_of_range_or_beside_is_an_error_at_it
         site_targets(read(path))
     points = [{"period_s": t, "horizontal_g": a} for t, a in ((0.02, 0.5), (5.0, 0.1))]
     sheet = read(make(tmp_path, spectrum=points))
-    with pytest.raises(InputError, match="a target spectrum is entered, not that of AC156; add"):
+    with pytest.raises(
+        InputError, match="the workbook has its own target spectrum instead of AC156; add"
+    ):
         site_targets(sheet)
 
 
@@ -149,8 +151,8 @@ def test_a_suite_that_is_made_anew_names_the_workbook_whose_source_is_the_former
     told = commands.run(*anew).stderr
     said = "Generated, seed 1; AC156 with SEAOC PV1-2012, S_DS 1.5 g, z/h 1"
     line = (
-        f"warning: {{}}{address(path, MADE)}: source is '{source}', and suite.json beside the"
-        f" records says '{said}'; renew it by motion suite with --into, or correct it\n"
+        f"warning: {{}}{address(path, MADE)}: source is '{source}', but suite.json next to the"
+        f" records states '{said}'; update it with motion suite --into, or correct it\n"
     )
     assert told.endswith(line.format(f"{path}: "))
     # What `check` prints, `report` warns of; the package has no suite.json inside.

@@ -111,7 +111,7 @@ def test_the_rows_of_the_acceptance_are_stated(made, document):
     assert [row["title"] for row in rows if not row["satisfied"]] == ["Number of motions"]
     assert "NG: Number of motions: 2, at least 3\n" in made[1]
     assert made[1].count("\nOK: ") == 9
-    hold = "OK: Strong motion of generated motions: hold of the envelope: 20.0 s, at least 20.0 s"
+    hold = "OK: Strong-motion duration of generated motions (hold time): 20.0 s, at least 20.0 s"
     assert hold in made[1]
     ours = [row for row in rows if row["is_ours"]]
     assert [row["limit"] for row in ours] == [0.9, 1.0]
@@ -144,7 +144,7 @@ def test_the_target_is_that_of_the_code_and_the_table_states_it_with_the_fit(mad
     assert all("noise" in row for row in rows)
     assert (
         "6 of 6 components have spectra of 0.90 to 1.30 times the target and a mean ratio within 7"
-        " % of 1 (1/12 octave, from 0.1 Hz to 33.3 Hz, 5 % damping)" in made[1]
+        " % of 1 (1/12 octave, from 0.1 Hz to 33.3 Hz, 5% damping)" in made[1]
     )
     assert lines[-3].endswith("suite: 6 records, suite.json, suite.png; seed 5")
     assert lines[-1] == "then run: roofslip check DIR"
@@ -245,7 +245,7 @@ def test_a_sheet_of_a_workbook_is_the_target(tmp_path):
         (("--sds", 1.0, "--code", "pv1", "--zh", 1.5), "z/h is 1.5; enter a number from 0"),
         (("--sds", 1.0, "--code", "ibc"), "--code is 'ibc'; enter one of"),
         ((*AC156, "--count", 0), "Invalid value for '--count'"),
-        ((*AC156, "x.csv"), "unexpected argument 'x.csv'; write --records before the files"),
+        ((*AC156, "x.csv"), "unexpected argument 'x.csv'; put --records before the files"),
         ((*AC156, "--records", "none.csv"), "none.csv: no such file"),
     ],
 )

@@ -178,10 +178,10 @@ def a_limit(found, limit, measure=Measure.PLAIN, *, is_at_least=False, key=""):
 
 def test_a_limit_is_rounded_to_the_safe_side_and_what_is_computed_to_the_other():
     angle = partial(a_limit, measure=Measure.ANGLE_DEG, key="analysis_max_slope_deg")
-    assert angle(3.0, 7.0) == ("3.00° (5.2 %)", "7.00° (12.2 %)")
-    assert angle(7.004, 7.0) == ("7.004° (12.3 %)", "7.000° (12.2 %)")
-    assert angle(7.0, 7.0) == ("7.00° (12.278 %)", "7.00° (12.278 %)")
-    assert angle(7.00001, 7.0) == ("7.01° (12.3 %)", "7.00° (12.2 %)")
+    assert angle(3.0, 7.0) == ("3.00° (5.2%)", "7.00° (12.2%)")
+    assert angle(7.004, 7.0) == ("7.004° (12.3%)", "7.000° (12.2%)")
+    assert angle(7.0, 7.0) == ("7.00° (12.278%)", "7.00° (12.278%)")
+    assert angle(7.00001, 7.0) == ("7.01° (12.3%)", "7.00° (12.2%)")
     assert a_limit(0.3001, 0.3) == ("0.31", "0.30")
     assert a_limit(0.8999, 0.9, is_at_least=True) == ("0.89", "0.90")
     assert a_limit(0.399, 0.4, is_at_least=True, key="prescriptive_min_mu") == ("0.399", "0.400")

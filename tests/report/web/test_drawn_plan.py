@@ -45,7 +45,7 @@ def test_a_second_drawing_says_on_the_page_what_the_command_prints(tmp_path):
     drawing = drawn(tmp_path, 150.0, has_unit=False)
     lines = plan_read(book)["answer"]["lines"]
     assert any("the plan as a whole is moved by x 150.00" in line for line in lines)
-    assert any(line.startswith("taken out with RTU-1: ") for line in lines)
+    assert any(line.startswith("deleted with RTU-1: ") for line in lines)
     printed = output_of("plan", "read", drawing, by_command, "--replace").splitlines()
     assert [line for line in lines if line not in printed] == []
     assert read(book).inputs["objects"] == read(by_command).inputs["objects"]

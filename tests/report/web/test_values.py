@@ -171,7 +171,7 @@ PAIRS = [
 def annex(tmp_path_factory):
     """A part of the campus on the other ways of a workbook to give friction, slope and motions.
 
-    The prescriptive displacement governs; one object has no place in the plan.
+    The prescriptive displacement governs; one object has no location on the plan.
     """
     folder = tmp_path_factory.mktemp("annex")
     shutil.copytree(PROJECTS / "campus" / "records", folder / "records")
@@ -385,7 +385,7 @@ def test_clearances_follow_the_sides_of_the_arrays():
 def test_sliders_end_where_the_workbook_could_have_no_value_beyond():
     given, friction = start("example"), offered("example")["friction"]
     assert friction["greatest"] == 1.06
-    assert "the tests give 0.529" in friction["stops"]["greatest"]
+    assert "the tested mean is 0.529" in friction["stops"]["greatest"]
     assert "least" not in friction["stops"]
     at_end, beyond = (
         retyped(given.sheet, typed(given.sheet, given.scales, {"friction": value}))

@@ -116,27 +116,29 @@ KINDS = {
         "enter times in seconds, such as time_s", PLAIN,
     ),
     "numbers of samples without a heading": Kind(
-        table(map(str, range(COUNT)), V, mark=" "), "or delete the column if it counts the samples",
+        table(map(str, range(COUNT)), V, mark=" "), "or delete the column if it contains sample"
+                                                    " numbers",
         COLUMN, given=IN_G, then=BOTH,
     ),
     "lines with their numbers": Kind(
         across(V, 8, numbered=True),
-        r"column 9 counts the lines: delete it; .*--values-per-line (\d+)", across(V, 8),
+        r"column 9 contains line numbers: delete it; .*--values-per-line (\d+)", across(V, 8),
         given=BOTH, then=BOTH | {"values_per_line": "1"},
     ),
     "lines with their numbers before times": Kind(
-        table(map(str, range(COUNT)), T, V, mark=" "), "column 1 counts the lines: delete it",
+        table(map(str, range(COUNT)), T, V, mark=" "), "column 1 contains line numbers: delete it",
         table(T, V, mark=" "), given=IN_G, then=IN_G,
     ),
     "line numbers before lines of times": Kind(
         lines(*(f"{k}  {'  '.join(f'{t}  {v}' for t, v in row)}" for k, row in enumerate(
             zip(*[iter(zip(T, V, strict=True))] * 4, strict=True), 1))),
-        "column 1 counts the lines: delete it; then times rise in column 1, 3, 5, 7: put each time"
+        "column 1 contains line numbers: delete it; then times rise in column 1, 3, 5, 7: put"
+        " each time"
         " first on a line with its values, below a heading such as time_s,x_g,y_g$",
         table(T, V, head="time_s,x_g"), given=IN_G,
     ),
     "tables side by side": Kind(
-        table(T, V, T, GAL, mark=" "), "tables side by side; use one of them",
+        table(T, V, T, GAL, mark=" "), "tables side by side; use only one of them",
         table(T, V, mark=" "), given=IN_G, then=IN_G,
     ),
     "rounded times": Kind(
@@ -211,11 +213,11 @@ KINDS = {
         given=STEP, then=STEP,
     ),
     "gal below a heading in g": Kind(
-        table(T, GAL, head="time_s,acc_g"), r"is it cm/s2\? Enter the units that they have",
+        table(T, GAL, head="time_s,acc_g"), r"are they in cm/s2\? Enter the correct units",
         table(T, GAL, head="time_s,acc_cm/s2"),
     ),
     "a count of more": Kind(
-        lines("# NPTS = 300", *V), "use the whole file", lines("# NPTS = 200", *V),
+        lines("# NPTS = 300", *V), "use the complete file", lines("# NPTS = 200", *V),
         given=BOTH, then=BOTH,
     ),
     "a count of fewer": Kind(
@@ -223,7 +225,7 @@ KINDS = {
         given=BOTH, then=BOTH,
     ),
     "a last line without its end": Kind(
-        lines(*V[:-1]) + V[-1][:5], "use the whole file", COLUMN, given=BOTH, then=BOTH
+        lines(*V[:-1]) + V[-1][:5], "use the complete file", COLUMN, given=BOTH, then=BOTH
     ),
     "a step of hours": Kind(
         lines("# dt = 0.01 h", *V), "enter it in s, ms or min", lines("# dt = 0.01 s", *V),
@@ -265,7 +267,7 @@ KINDS = {
     "a workbook": Kind(
         workbook(T, V, head=("time_s", "acc_g")), "save its worksheet as CSV", PLAIN
     ),
-    "an array of numpy": Kind(
+    "a NumPy array": Kind(
         array_of(TRUTH_G), "write its values as columns below a heading such as time_s,x_g,y_g",
         table(T, V, head="time_s,x_g"),
     ),
@@ -274,10 +276,10 @@ KINDS = {
         "or as counts per m/s2", then={"response": "100000"},
     ),
     "a response of accelerations": Kind(
-        PLAIN, "use the file alone", given={"response": "100000"}
+        PLAIN, "omit the response", given={"response": "100000"}
     ),
     "units and a response": Kind(
-        COLUMN, "use one of them", given=BOTH | {"response": "100000"}, then=BOTH
+        COLUMN, "use only one of them", given=BOTH | {"response": "100000"}, then=BOTH
     ),
     "an AT2 without its step": Kind(
         across(V, 5, (*PEER, f"NPTS= {COUNT}")), "enter the time step dt", then=STEP
@@ -288,7 +290,7 @@ KINDS = {
         across(V, 5, (*PEER, NPTS)),
     ),
     "an AT2 of fewer values": Kind(
-        across(V[:150], 5, (*PEER, NPTS)), "use the whole file", across(V, 5, (*PEER, NPTS))
+        across(V[:150], 5, (*PEER, NPTS)), "use the complete file", across(V, 5, (*PEER, NPTS))
     ),
     "an AT2 of more values": Kind(
         across(V, 5, (*PEER, NPTS.replace("200", "150"))), "correct the count",

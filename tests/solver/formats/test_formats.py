@@ -76,11 +76,11 @@ HELD = {
     }, {"abs": 1e-12}, (
         f"line 5 states 3 channels of the recorder{OTHERS}",
         RESAMPLED,
-        OFFSET.format("0.0123 g, 1.6 % of the peak"),
+        OFFSET.format("0.0123 g, 1.6% of the peak"),
     )),
     "usc.v1": Held("USC V1", 0.001, {"COMP N90E": UNEVEN * G / 10}, {"abs": 1e-12}, (
         RESAMPLED,
-        OFFSET.format("0.0123 g, 1.6 % of the peak"),
+        OFFSET.format("0.0123 g, 1.6% of the peak"),
     )),
     # Of these heading and values are of volume 1, and the step is the duration by the points.
     "bhrc.v1": Held("BHRC V1", 0.005, {
@@ -111,7 +111,7 @@ HELD = {
     "kiknet.ew1": Held("KiK-net", 0.005, {
         "EW1": (-2471 + COUNTS[1]) * 2000 / 8388608 / 100,
     }, EXACT, (
-        OFFSET.format("-0.000597 g, 17 % of the peak"),
+        OFFSET.format("-0.000597 g, 17% of the peak"),
         BOREHOLE,
     )),
     "kiknet.csv": Held("KiK-net CSV", 0.05, {
@@ -120,10 +120,10 @@ HELD = {
     }, {"abs": 0.51e-4}, tuple(f"{name}: {BOREHOLE}" for name in ("NS1", "EW1", "UD1"))),
     "knet.csv": Held("K-NET CSV", 0.05, {
         "N-S": WAVE[:20] / 100 + 0.01, "E-W": WAVE[:20] / 200, "U-D": WAVE[:20] / 400 - 0.1,
-    }, {"abs": 0.51e-4}, (f"U-D: {OFFSET.format('-0.0102 g, 24 % of the peak')}",)),
+    }, {"abs": 0.51e-4}, (f"U-D: {OFFSET.format('-0.0102 g, 24% of the peak')}",)),
     "knet.ns": Held("K-NET", 0.01, {
         "N-S": (13186 + COUNTS[0]) * 3920 / 6182761 / 100,
-    }, EXACT, (OFFSET.format("0.00855 g, 40 % of the peak"),)),
+    }, EXACT, (OFFSET.format("0.00855 g, 40% of the peak"),)),
     "peer-nga.at2": Held("PEER AT2", 0.005, {"180": PEER * G}, {"abs": 0.0}),
     "peer-old.at2": Held("PEER AT2", 0.005, {"180": PEER * G}, {"abs": 0.0}),
     "renadic.v1": Held("RENADIC V1", 0.005, {
@@ -134,11 +134,11 @@ HELD = {
     "smc-corrected.smc": Held("USGS SMC", 0.005, {"up": SMC_WAVE / 100}, EXACT),
     "smc-even.smc": Held("USGS SMC", 0.01, {
         "90": (0.25 * SMC_WAVE + 1.0) / 100,
-    }, {"abs": 1.01e-5}, (OFFSET.format("0.00106 g, 3.5 % of the peak"),)),
+    }, {"abs": 1.01e-5}, (OFFSET.format("0.00106 g, 3.5% of the peak"),)),
     # Pairs with a short line.
     "smc-uneven.smc": Held("USGS SMC", 0.001, {
         "45": UNEVEN / 10,
-    }, {"abs": 1e-13}, (RESAMPLED, OFFSET.format("0.00126 g, 1.6 % of the peak"))),
+    }, {"abs": 1e-13}, (RESAMPLED, OFFSET.format("0.00126 g, 1.6% of the peak"))),
 }  # fmt: skip
 
 
@@ -164,11 +164,11 @@ LEFT_OVER = " 1.1100E-1 9.5000E+1 1.1200E-1 9.4000E+1 1.1300E-1 9.3000E+1 1.1400
     [
         # As in 16 of 16 public files; the line may go back in time.
         ([("1.2000E-1 0.0000E+0", f"1.2000E-1 0.0000E+0\n{LEFT_OVER}")],
-         "line 34 is beyond the 26 values stated, and is left out"),
+         "line 34 is beyond the 26 values stated, and is skipped"),
         ([("        26  ", "        28  "),
           ("-2.5000E+1 3.3000E-2 4.0000E+1",
            "-2.4000E+1 2.0000E-2-2.6000E+1 3.3000E-2 4.0000E+1")],
-         "times that stand twice: 1; the mean of their values is taken"),
+         "repeated times: 1; the mean of their values is used"),
     ],
 )  # fmt: skip
 def test_film_may_have_a_line_more_than_stated_and_a_time_twice(altered, changes, note):
@@ -215,7 +215,7 @@ READ_OTHERWISE = [
     ("cosmos.v2c", [("cm/sec2(04)", "in/sec2(07)")], 2.54, ()),
     ("cosmos.v2c", [("(1E15.6)", "(1F15.6E)")], 1.0, ()),
     ("cosmos.v2c", [("End-of-data for Chan  1 acceleration", "")], 1.0,
-     ("no end-of-data line follows the values: the file may be truncated",)),
+     ("no end-of-data line follows the values; the file may be truncated",)),
     # The California Geological Survey leaves out a comma; quantities may be two words.
     ("cosmos.v1c", [("(02),Format", ".  (02)Format")], 1.0, ()),
     ("cosmos.v1c", 2 * [("acceleration pts", "uncor accel.   pts")], 1.0, ()),
@@ -253,7 +253,7 @@ def test_sensors_and_steps_of_headings_are_taken(altered):
     assert read_motion_file(path).channel().dt_s == 0.008
     for dt_s in (1 / 128, 0.0084):
         assert read_motion_file(path, dt_s=dt_s).channel().dt_s == dt_s
-    assert "but the one given is 0.0086 s" in problems_of(path, dt_s=0.0086)[0]
+    assert "but 0.0086 s was entered" in problems_of(path, dt_s=0.0086)[0]
     unknown = ("    -999.000000", "    -999.000000")
     steps = [("       7.812500", unknown[1]), ("       0.005000", unknown[1])]
     path = altered("cosmos.v2c", *steps)
@@ -269,7 +269,7 @@ COUNT = "      21       0       0      21"
 FAULTS = [
     ("geonet.v1a", [(COUNT, COUNT[:-2] + "22")], ":20: states 22 values, found 21"),
     ("geonet.v1a", [(COUNT, COUNT[:-4] + "none")],
-     ":20: found no number of accelerations; use the whole"),
+     ":20: found no number of accelerations; use the complete"),
     ("cosmos.v2c", [("(1E15.6)", "(free)")], ":49: found format (free); enter one as (8F10.3)"),
     ("cosmos.v2c", [("cm/sec2(04)", "counts(50)")], ":49: found unit 'counts', code 50; use a fi"),
     ("cosmos.v2c", [("cm/sec2(04)", "g(04)")], ":49: found unit 'g' with code 4, which is cm/s2;"),
@@ -303,7 +303,7 @@ FAULTS = [
     ("esm.asc", [("\n0.750000", "\n0.7")], ":47: found '0.7', with fewer digits than all other"),
     ("esm.asc", [("0.005000", "0.050000")], ":19: the heading states 0.105 s, the record lasts"),
     ("afad.txt", [("NUMBER OF DATA                  : 21", "NUMBER OF DATA: 22")],
-     ":13: states 66 values, found 63; use the whole file"),
+     ":13: states 66 values, found 63; use the complete file"),
     ("afad.txt", [("     0.062500\r", "\r")], ":19: found 2 values; enter 3"),
     ("afad.txt", [("(gal)            : (N", "(count)            : (N")], ":15: found unit 'count'"),
     ("knet.csv", [("#1\n#Offset", "#3\n#Offset")], ":12: the heading states 3 s, the record lasts"),
@@ -314,7 +314,7 @@ FAULTS = [
     ("knet.ns", [("Duration Time(s)  0.2", "Duration Time(s)  0.3")], ":12: states 30 values, fou"),
     ("knet.ns", [("3920(gal)/6182761", "3920/6182761")], ":14: found '3920/6182761'; enter a"),
     ("knet.ns", [("6182761", "618276")], ":15: the header states a peak of 0.01599 g, the values"),
-    ("knet.ns", [("Memo.", "Remark")], ": found no line Memo.; use the whole heading"),
+    ("knet.ns", [("Memo.", "Remark")], ": found no line Memo.; use the complete heading"),
     ("smc-corrected.smc", [("        21  ", "        22  ")], ":14: states 22 values, f"),
     ("smc-corrected.smc", [("         2\r", "         3\r")], ":30: found a line without | am"),
     ("smc-corrected.smc", [("-0.1234600E+03", "-0.9234600E+03")], ":23: the header states a pe"),
@@ -373,7 +373,7 @@ def test_what_the_caller_says_must_agree(name, units, written, other, step, othe
     said = f"the file is in {written} but units are {other}; enter the file's units, or none"
     assert all(one.startswith(f"{name}:") and one.endswith(said) for one in told)
     told = problems_of(path, dt_s=other_s)
-    said = f"the time step of the file is {step} s but the one given is {other_s:g} s; enter"
+    said = f"the time step of the file is {step} s but {other_s:g} s was entered; enter"
     assert all(said in one for one in told)
 
 
@@ -382,7 +382,7 @@ def test_a_cut_file_and_one_without_units_say_so(file):
     motion_file = read_motion_file(file(text[: text.index("points of displ")]))
     assert motion_file.channel().a_mps2 == pytest.approx(1.5 * WAVE / 100, rel=1e-14)
     assert motion_file.notes[1:] == (
-        "no end-of-data line (/&) follows the values: the file may be truncated",
+        "no end-of-data line (/&) follows the values; the file may be truncated",
     )
     bare = "SOMETHING\nELSE\n\nNPTS= 2, DT= .01 SEC\n1 2\n"
     assert problems_of(file(bare))[0].startswith("roof.csv: found no unit of acceleration; enter")
@@ -401,7 +401,7 @@ ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz
     ("content", "expected"),
     [
         ("RESPONSE AND FOURIER AMPLITUDE SPECTRA\nCORRECTED ACCELEROGRAM\n",
-         ":1: found spectra; use a file of volume 1 or 2"),
+         ":1: found spectra; use a volume 1 or 2 file"),
         ("Corrected acceleration    (Format v01.20 with 13 text lines)\n" + SERIES * 2000,
          ": found 2000 channels; enter at most 1000 in a file"),
         ("PEER\nX, Y, 1\nVELOCITY TIME HISTORY IN UNITS OF CM/S\nNPTS= 2, DT= .01 SEC\n1 2\n",
@@ -468,11 +468,11 @@ def test_values_below_a_count_are_apart_by_commas_tabs_and_signs(file, values):
         (
             "NPTS= 6, DT= .01 SEC",
             "0 1\n.01 2\n.02 3\n.03 1\n.04 1\n.05 2",
-            "4: states 6 values, found times beside them; delete the lines above the times, and"
+            "4: states 6 values, found times next to them; delete the lines above the times, and"
             " enter a heading such as time_s,acc_g",
         ),
         ("NPTS= 3, DT= 5 USEC", "1 2 3", "4: found a step in usec; enter it in s, ms or min"),
-        ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; use the whole file"),
+        ("NPTS= 4, DT= .01 SEC", "1 2 3", "4: states 4 values, found 3; use the complete file"),
         ("NPTS= 3, DT= SEC", "1 2 3", "4: found no time step; enter the time step dt"),
         ("NPTS= 3, DT= 0.0 SEC", "1 2 3", "4: found time step 0 s; enter a number above 0"),
         ("NPTS: 3", "1 2 3", "4: found 'NPTS: 3'; enter the count and the step as in NPTS="),

@@ -98,7 +98,7 @@ def test_stated_peaks_and_offsets_are_told():
     assert offset_notes(np.array([1.0, -1.0, 0.0])) == ()
     assert offset_notes(np.zeros(5)) == ()
     assert offset_notes(np.array([0.1 * G, -0.05 * G])) == (
-        "uncorrected: the mean is 0.025 g, 25 % of the peak; it is not removed",
+        "uncorrected: the mean is 0.025 g, 25% of the peak; it is not removed",
     )
 
 
@@ -135,7 +135,9 @@ def test_codes_beside_shaking_and_gravity_are_told(file):
         assert "code for missing data" in problem
     rows = "".join(f"{k / 100},{0.1 * (-1) ** k},{1 - 0.1 * (-1) ** k}\n" for k in range(50))
     path = file(f"t_s,X_g,Z_g\n{rows}")
-    assert read_motion_file(path).notes == ("Z: the mean is about 1 g: gravity is in it",)
+    assert read_motion_file(path).notes == (
+        "Z: the mean is about 1 g because the record includes gravity",
+    )
 
 
 @pytest.mark.parametrize(
@@ -322,8 +324,8 @@ def test_what_python_or_numpy_may_take_but_is_no_number_is_refused(field):
 @pytest.mark.parametrize(
     ("count", "told"),
     [
-        (5, "found 4; use the whole"),
-        (9, "found 4; use the whole"),
+        (5, "found 4; use the complete"),
+        (9, "found 4; use the complete"),
         (3, "found 4; correct the count"),
         (2, "found more in line 2"),
     ],

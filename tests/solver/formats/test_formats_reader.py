@@ -136,7 +136,7 @@ def test_no_damage_of_a_line_or_cut_in_the_last_value_changes_a_record_without_a
     [
         # Sixty-six lines of two channels: one channel, and the heading of the other.
         ("cosmos.v1c", 66, "cosmos.v1c:58: found a heading without a line ... pts, approx ... sec"),
-        ("csmip-even.raw", 50, "csmip-even.raw:43: states 42 values, found 0; use the whole"),
+        ("csmip-even.raw", 50, "csmip-even.raw:43: states 42 values, found 0; use the complete"),
         ("geonet.v1a", 58, "geonet.v1a:30: found the heading of component 2, the last one, where"),
     ],
 )
@@ -151,9 +151,9 @@ def test_a_file_cut_after_its_first_channel_is_refused(file, name, kept, expecte
     [
         # 2.5 of 2.500000e+00 is a number, and so is 9.8 of 9.800000e+01.
         ("cosmos.v2c", "   9.800000e+01", "   9.800000", "54: found a line of 11 characters that"
-         " ends within a field of 15; use the whole file"),
+         " ends within a field of 15; use the complete file"),
         ("peer-nga.at2", "-.3125000E-01", "-.3125", "6: found '-.3125' at the end, with fewer"
-         " digits than all other values; use the whole file"),
+         " digits than all other values; use the complete file"),
         ("geonet.v1a", "Duration   0.10 sec", "Duration   0.90 sec", "10: the heading states 0.9 s,"
          " the record lasts 0.105 s; enter dt with more digits, or a file whose headings agree"),
         ("csmip-pairs.v1", "     0.600     0.120", "     0.600     0.220", "21: the heading states"
@@ -189,7 +189,7 @@ def test_a_last_value_cut_short_is_refused_and_stated_steps_are_compared(file, a
     assert read_motion_file(file(VALUES), units="g").notes == ()
     assert problems_of(file(VALUES[:-3]), units="g") == (
         "roof.csv:20: found '-0.12' at the end, with fewer digits than the values before it and"
-        " without a line end; use the whole file, or end its last line",
+        " without a line end; use the complete file, or end its last line",
     )
     for lines in (1, 60):
         text = VALUES[:-3] + "\n" + "\n".join(["# end"] * lines)
@@ -215,7 +215,7 @@ def test_a_text_that_states_its_samples_is_held_to_it(file, words):
     assert len(read_motion_file(file(text)).channel().a_mps2) == 20
     cut = "".join(text.splitlines(keepends=True)[:-3])
     assert problems_of(file(cut)) == (
-        "roof.csv:1: states 20 samples, found 17; use the whole file",
+        "roof.csv:1: states 20 samples, found 17; use the complete file",
     )
     assert problems_of(file(text + "0.20,0.1\n")) == (
         "roof.csv:1: states 20 samples, found 21; correct the count",

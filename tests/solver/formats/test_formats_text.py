@@ -105,7 +105,7 @@ def test_gravity_raw_counts_and_values_across_lines_are_read_as_told(file):
     rows = "0,0.58,0.01,0.79\n1,0.62,-0.01,0.78\n"
     motion_file = read_motion_file(file(f"t_s,x_g,y_g,z_g\n{rows}"))
     assert motion_file.notes == (
-        "the means of the three are about 1 g together: gravity is in them",
+        "the means of the three add up to about 1 g because the records include gravity",
     )
     for heading in ("time_s,x_counts", "t,x"):
         record = read_record(file(f"{heading}\n0,100\n1,200\n"), response="50")
@@ -139,8 +139,8 @@ def test_a_peak_that_no_roof_reaches_asks_for_the_unit(file, head, peak, is_read
         assert read_record(path).a_mps2.min() == pytest.approx(-peak * G)
         return
     (problem,) = problems_of(path, units="")
-    assert problem.startswith(f"roof.csv: the values reach {peak:g} g, and no ground or roof")
-    assert problem.endswith("is it cm/s2? Enter the units that they have, or correct them")
+    assert problem.startswith(f"roof.csv: the values reach {peak:g} g, which is more than")
+    assert problem.endswith("are they in cm/s2? Enter the correct units, or correct the values")
 
 
 # Values across the lines, of which no column rises, and what others write between them.
@@ -209,8 +209,11 @@ def test_a_line_of_pairs_that_is_there_twice_is_named(file):
 
 def test_what_the_message_on_a_column_that_counts_the_lines_advises_works(file):
     for rows, told in (
-        (CARDS, "column 9 counts the lines: delete it"),
-        ([f"{k} {row}" for k, row in enumerate(CARDS)], "columns 1, 10 count the lines: delete"),
+        (CARDS, "column 9 contains line numbers: delete it"),
+        (
+            [f"{k} {row}" for k, row in enumerate(CARDS)],
+            "columns 1, 10 contain line numbers: delete",
+        ),
     ):
         for how in ({}, {"values_per_line": len(rows[0].split())}):
             (problem,) = problems_of(file("\n".join(rows)), dt_s=0.01, **how)
@@ -221,11 +224,13 @@ def test_what_the_message_on_a_column_that_counts_the_lines_advises_works(file):
 def test_two_tables_side_by_side_are_told(file):
     rows = [f"{0.01 * k:.2f} {a:.4f} {0.01 * k:.2f} {-a:.4f}" for k, a in enumerate(WAVED)]
     (problem,) = problems_of(file("\n".join(rows)))
-    assert problem.endswith("; columns 1 and 3 are the same: tables side by side; use one of them")
+    assert problem.endswith(
+        "; columns 1 and 3 are the same: tables side by side; use only one of them"
+    )
     heads = "time_s,a_g,time_s,b_g"
     (problem,) = problems_of(file("\n".join([heads, *(row.replace(" ", ",") for row in rows)])))
     assert problem == (
-        "roof.csv: found times in columns 1 and 3: tables side by side; use one of them"
+        "roof.csv: found times in columns 1 and 3: tables side by side; use only one of them"
     )
 
 
@@ -233,7 +238,7 @@ def test_two_tables_side_by_side_are_told(file):
 def test_a_column_that_reaches_many_times_the_others_is_noted(file, factor, is_told):
     rows = [f"{0.01 * k:.2f},{a:.5f},{factor * a:.4f},{a:.5f}" for k, a in enumerate(WAVED)]
     notes = read_motion_file(file("\n".join(["t_s,x,y,z", *rows, ""])), units="cm/s2").notes
-    told = "y reaches 981 times the peaks of the others: is it in their unit?"
+    told = "y reaches 981 times the peaks of the others: is it in the same unit?"
     assert notes[:1] == ((told,) if is_told else ())
 
 
@@ -400,7 +405,7 @@ LETTERS = "time_s,ch_f,ch_g,ch_h\n0,1,2,3\n1,4,5,6\n"
 
 
 RAW = (
-    "raw counts are no acceleration without the response of the instrument; enter it (motion"
+    "raw counts require the response of the instrument; enter it (motion"
     " convert --response), as StationXML for miniSEED and SAC, or as counts per m/s2"
 )
 NONE, WHICH = {"units": ""}, "the comment states gal, the heading 'acc_g' states g: which is it?"
@@ -420,10 +425,10 @@ REFUSED = {
     "a third unit": (TWO_UNITS, {"units": "m/s2"},
         f":2: {WHICH} Correct one of them, or enter the units"),
     "a remark has another step": ("# dt = 0.005\n1\n2\n", {"dt_s": 0.01},
-        ":1: the time step of the file is 0.005 s but the one given is 0.01 s; enter the time step"
+        ":1: the time step of the file is 0.005 s but 0.01 s was entered; enter the time step"
         " of the file, or none"),
     "times have another step": ("0,1\n0.01,2\n", {"dt_s": 0.02},
-        ":1: the time step of the file is 0.01 s but the one given is 0.02 s; enter the time step"
+        ":1: the time step of the file is 0.01 s but 0.02 s was entered; enter the time step"
         " of the file, or none"),
     "no channel is chosen": (CHANNELS, NONE,
         ": found several channels; use one by name or number: 1 NS; 2 EW; 3 UD"),
@@ -437,11 +442,11 @@ REFUSED = {
         " delete the column and enter the time step dt")
        for dt_s in (math.nan, 0.005)},
     **{f"only {heading}": (f"time_s,{heading}\n0,1\n1,2\n", {},
-        f": found no component of acceleration beside '{heading}', not an acceleration: name one"
+        f": found no acceleration component next to '{heading}', not an acceleration: name one"
          " with a heading such as acc_g")
        for heading in ("vel_cm/s", "velocity_g", "velocity", "Disp. [gal]")},
     **{f"only a magnitude {name}": (f"time_s,{name} [g]\n0,1\n1,2\n", {},
-        f": found no component of acceleration beside '{name} [g]', the magnitude of a vector, not"
+        f": found no acceleration component next to '{name} [g]', the magnitude of a vector, not"
         " a component: name one with a heading such as acc_g")
        for name in ("Abs", "Resultant", "Vector sum", "|a|", "Total", "acc_mag", "aT", "SRSS")},
     **{f"raw counts {name}": (f"time_s,{name}\n0,1\n1,2\n", {},
@@ -458,7 +463,7 @@ REFUSED = {
     "commas for thousands": ("t_s;a_gal\n0;1.5\n1;1,234.5\n", NONE,
         ":3: found '1,234.5'; enter a number without commas for thousands"),
     "only a heading with blanks": ("Time (sec)   Vel (m/s)\n0.0 0.0\n0.012 1.0\n0.02 2.0\n", {},
-        ": found no component of acceleration beside 'Vel (m/s)', not an acceleration: name one"
+        ": found no acceleration component next to 'Vel (m/s)', not an acceleration: name one"
         " with a heading such as acc_g"),
 }  # fmt: skip
 
@@ -478,36 +483,39 @@ def test_what_cannot_be_or_contradicts_itself_is_refused(file, content, how, pro
         ("0,0;0,12\n0.1;2\n", ["1: found '0,0'; enter a number with a decimal point", "1: fou"]),
         ("a\n\n# x\n0,12\n0,13\n-0,11", ["4: found '0,12'; enter a number with a decimal"]),
         ("2 1\n1 2\n0 3\n", ["2: found time 1 s after 2 s", "3: found time 0 s after 1 s"]),
-        ("065XXX010101\nCSMNC\n\n1 2\n", ["1: found '065XXX010101' where numbers are due, and"]),
+        ("065XXX010101\nCSMNC\n\n1 2\n", ["1: found '065XXX010101' where numbers were expected;"
+                                          " the"]),
         ("word\nand some more\nin prose\n",
-         ["2: found 'and some more' where numbers are due, and"]),
+         ["2: found 'and some more' where numbers were expected; the"]),
         ("1994 Northridge\n0.1\n0.2\n",
-         ["1: found '1994 Northridge' where numbers are due, and no"]),
+         ["1: found '1994 Northridge' where numbers were expected; the file"]),
         ("SAP2000 v20\nFUNCTION  TH1\nTIME  VALUE\n0 1\n",
-         ["2: found 'FUNCTION  TH1' where numbers are due, and no heading"]),
+         ["2: found 'FUNCTION  TH1' where numbers were expected; the file is in no"]),
         ("model basic\ntimeSeries Path 1 -dt 0.01\n1 2\n", ["2: this looks like a program, which"]),
-        ("<html>\n<body>\n", ["2: this looks like a web page, which is not read; use the record"]),
+        ("<html>\n<body>\n", ["2: this looks like a web page, which is not supported; use the"
+                              " record"]),
         ("TIMESERIES IU_X, 9 samples\n1 2 x\n", ["2: this looks like TSPAIR or SLIST of Earth"]),
         ("# dt = 5 us\n1\n2\n", ["1: found a step in us; enter it in s, ms or min"]),
         ("# dt = 5\n1\n2\n", [" the time step is 5 s; use a record with steps of 1e-06 to 1 s"]),
-        ("# NPTS: 3\n1\n2\n", ["1: states 3 samples, found 2; use the whole file"]),
+        ("# NPTS: 3\n1\n2\n", ["1: states 3 samples, found 2; use the complete file"]),
         ("1 0.1\n2 0.2\n3 0.1\n" + "".join(f"{k} 0\n" for k in range(4, 20)),
          ["1: found a first column with steps of 1; enter the unit of the times, such as time_s"]),
         *((f"{sign}   1.0e-03 *\n\n 0.1\n 0.2\n",
-           ["1: found '1.0e-03 *', a factor of the numbers below it; multiply them all by it, and"])
+           ["1: found '1.0e-03 *', a factor for the numbers below it; multiply them all by it,"
+            " and"])
           for sign in ("", "# ")),
         ("1 2 3\n4 5 6\n7\n", ["3: found 1 values after lines of 3: values across the lines, not"]),
-        ("60 0.1\n1 2 3\n4 5 6\n7\n", ["1: states 60 values, found 7; use the whole file"]),
+        ("60 0.1\n1 2 3\n4 5 6\n7\n", ["1: states 60 values, found 7; use the complete file"]),
         (
             "100 7\n1\n2\n3\n",
-            ["1: found 2 numbers above rows of 1; if they are no samples, put # be"],
+            ["1: found 2 numbers above rows of 1; if they are not samples, put # be"],
         ),
         ("made motion\n0.01 7\n1\n2\n3\n", ["2: found 2 numbers above rows of 1; if they are no"]),
         ("0 1\n2 0\n" * 6,
          [" found 2 columns without a heading, and the first is no time: it fal"]),
         ("t,x,y,z\n0,1,2\n1,2,3\n", ["1: found 4 headings over 3 columns; enter one"]),
         ("n,t_s,x_g\n0,1,2\n1,2,3\n", [" found times in column 2; put them in the f"]),
-        ("", [" found no numbers"]),
+        ("", [" no numbers found"]),
         ("0,1\n", [" found 1 sample; enter at least 2"]),
         ("1\n2\n", [" found one column, without times; enter the time step dt"]),
     ],
@@ -539,7 +547,9 @@ def test_a_spectrum_is_no_record(file, head, named):
     separator = next((mark for mark in ",;\t" if mark in head), ",")
     width = head.count(separator) + 1
     rows = [separator.join([f"{0.1 * k:.1f}", *["0.3"] * (width - 1)]) for k in range(1, 40)]
-    wanted = f"roof.csv:1: found {named}: this is a spectrum, no record; use accelerations by time"
+    wanted = (
+        f"roof.csv:1: found {named}: this is a spectrum, not a record; use accelerations by time"
+    )
     assert problems_of(file("\n".join([head, *rows]) + "\n")) == (wanted,)
 
 
@@ -559,7 +569,7 @@ def table_below(remark):
 @pytest.mark.parametrize(
     "remark",
     [
-        "# Pseudo-acceleration spectrum, 5 % damping, g",
+        "# Pseudo-acceleration spectrum, 5% damping, g",
         "# Period (s), PSA (g)",
         "# T(s) Sa(g)",
         "Response spectra of the site",
@@ -569,7 +579,7 @@ def table_below(remark):
 def test_a_line_above_the_numbers_tells_of_a_spectrum(file, remark):
     problems = problems_of(file(table_below(remark)))
     assert problems[0].startswith("roof.csv:1: found ")
-    assert "spectrum, no record; use accelerations by time" in problems[0]
+    assert "spectrum, not a record; use accelerations by time" in problems[0]
     # Below the name of a spectrum, a record has values of both signs.
     assert read_record(file("# Matched to the response spectrum of the site\n0.1\n-0.2\n0.3\n"),
                        units="g", dt_s=0.01)  # fmt: skip
@@ -588,7 +598,7 @@ def test_a_line_above_the_numbers_tells_of_a_spectrum(file, remark):
 def test_a_line_above_the_numbers_tells_of_another_quantity(file, remark, named):
     path = file(remark + "\n0.00 0.1\n0.01 -0.2\n0.02 0.3\n")
     (problem,) = problems_of(path)
-    assert problem.startswith(f"roof.csv:1: found {named!r}, and no acceleration; use "), problem
+    assert problem.startswith(f"roof.csv:1: found {named!r} but no acceleration; use "), problem
     head, _, rows = path.read_text().partition("\n")
     # A heading of accelerations decides.
     assert read_record(file(f"# {head}\ntime_s acc_g\n{rows}"))

@@ -17,7 +17,7 @@ SOURCE = Source(name="a.csv", lines=[], units="g", dt_s=float("nan"))
 
 def share_said(note):
     """By which part of the peak a sample is moved, as a note says."""
-    return float(note.split("more than ")[1].split(" %")[0]) / 100.0
+    return float(note.split("more than ")[1].split("%")[0]) / 100.0
 
 
 class TestEvenTimes:
@@ -59,7 +59,7 @@ class TestRoundedTimes:
         motion_file = read_motion_file(file(text), units="m/s2", dt_s=advised)
         assert motion_file.channel().dt_s == advised
         assert motion_file.channel().a_mps2.tolist() == [i % 7 - 3 for i in range(n)]
-        assert "a missing sample would not show" in motion_file.notes[0]
+        assert "a missing sample would not be noticed" in motion_file.notes[0]
         assert input_problems(read_motion_file, file(text), units="m/s2", dt_s=1.1 * dt_s) == (
             problem,
         )
@@ -106,7 +106,7 @@ class TestUnevenTimes:
             return
         even = t[0] + dt_s * np.arange(columns.shape[1])
         moved = np.abs(np.interp(t, even, columns[0]) - a).max()
-        said = share_said(notes[0] + " more than 0 %")
+        said = share_said(notes[0] + " more than 0%")
         assert moved <= (1.05 * said + 1e-9) * np.abs(a).max()
         finest = dt_s <= np.median(np.diff(t)) / 80.0
         assert said <= LOSS or finest
@@ -142,7 +142,7 @@ class TestUnevenTimes:
 
     def test_uneven_times_agree_with_no_step_and_grow_to_a_limit(self, file):
         assert input_problems(read_record, file("0 1\n1 2\n3 4\n"), units="g", dt_s=1.0) == (
-            "roof.csv: found uneven times but the time step given is 1 s; omit it, and the"
+            "roof.csv: found uneven times but the entered time step is 1 s; omit it, and the"
             " record is resampled",
         )
         path = file("0 1\n1e-6 2\n2e-6 3\n3e-6 4\n1e9 5\n")

@@ -110,7 +110,7 @@ def test_a_heading_gives_step_unit_components_and_start(file, form):
     content, start, shares = READ[form]
     motion_file = read_motion_file(file(content))
     assert (motion_file.format, str(motion_file.start)) == (form, start)
-    offset = ("uncorrected: the mean is 0.00188 g, 2 % of the peak; it is not removed",)
+    offset = ("uncorrected: the mean is 0.00188 g, 2% of the peak; it is not removed",)
     assert motion_file.notes == (offset if form == "CSMNC" else ())
     if len(shares) > 1:
         assert [record.name for record in motion_file.channels] == list(shares)
@@ -123,7 +123,7 @@ def test_a_heading_gives_step_unit_components_and_start(file, form):
     ("content", "change", "problem"),
     [
         (CSMNC, (f"VALUE:    {PEAK}", "VALUE:    9.3"), ":8: the header states a peak of"),
-        (CSMNC, ("POINTS:  200", "POINTS:  208"), ":7: states 208 values, found 200; use the w"),
+        (CSMNC, ("POINTS:  200", "POINTS:  208"), ":7: states 208 values, found 200; use the c"),
         (CSMNC, ("0.010  SEC", "10  USEC"), ":7: found a step in usec; enter it in s, ms or min"),
         (ISESD, ("samples:             200", "samples:             208"), ":8: states 208 values"),
         (ISESD, ("m/s*s, m/s & s", "V"), ":10: found unit 'V'; use an acceleration in g, m/s2"),

@@ -78,7 +78,7 @@ def test_samples_that_are_no_counts_are_in_the_unit_that_is_told(file, content):
     assert record.a_mps2 == pytest.approx(FLOATS / 100.0, rel=1e-7)
     told = read_motion_file(path, response="1000")
     assert told.channel().a_mps2 == pytest.approx(FLOATS / 1000.0, rel=1e-7)
-    assert told.notes[0] == "the samples are no whole numbers, and are read as counts"
+    assert told.notes[0] == "the samples are not whole numbers and are read as counts"
 
 
 @pytest.mark.parametrize("rate_hz", [50, 75, 100, 120, 125, 128, 250, 300, 500, 512, 1000, 200 / 3])
@@ -91,7 +91,7 @@ def test_sac_has_the_step_of_its_heading_at_any_rate(file, rate_hz):
 @pytest.mark.parametrize(
     ("azimuth", "dip", "sign", "told"),
     [
-        (0, 90, -1, ["its dip is 90 deg, positive downward: the sign is turned"]),
+        (0, 90, -1, ["its dip is 90 deg, positive downward: the sign is reversed"]),
         (0, -90, 1, []),
         (270, 0, 1, ["its azimuth is 270.0 deg, its dip 0.0 deg"]),
         (30, 40, 1, ["its azimuth is 30.0 deg, its dip 40.0 deg"]),
@@ -119,13 +119,13 @@ def test_each_component_is_a_channel_and_without_obspy_what_to_install_said(file
 @pytest.mark.parametrize(
     ("content", "problem"),
     [
-        (miniseed(COUNTS), "found XX.ABC..HNE: raw counts are no acceleration without the"),
-        (miniseed(0 * COUNTS), "found XX.ABC..HNE: raw counts are no acceleration without the"),
-        (sac(COUNTS), "found .ABC..: raw counts are no acceleration without the"),
+        (miniseed(COUNTS), "found XX.ABC..HNE: raw counts require the"),
+        (miniseed(0 * COUNTS), "found XX.ABC..HNE: raw counts require the"),
+        (sac(COUNTS), "found .ABC..: raw counts require the"),
         (sac(FLOATS, 7), ".ABC.. has velocity; use a record of acceleration"),
-        (miniseed(COUNTS)[:500], "damaged or cut miniSEED; use the whole file"),
-        (miniseed(COUNTS) * 2 + b"000002D ABC", "damaged or cut miniSEED; use the whole file"),
-        (sac(FLOATS)[:-9], "damaged or cut SAC; use the whole file"),
+        (miniseed(COUNTS)[:500], "damaged or cut miniSEED; use the complete file"),
+        (miniseed(COUNTS) * 2 + b"000002D ABC", "damaged or cut miniSEED; use the complete file"),
+        (sac(FLOATS)[:-9], "damaged or cut SAC; use the complete file"),
         (miniseed(COUNTS) + miniseed(COUNTS, 5), "XX.ABC..HNE has 2 pieces with gaps or overlaps"),
     ],
 )  # fmt: skip

@@ -29,7 +29,7 @@ NO_Y, NO_Z = {"ay_mps2": np.empty(0)}, {"az_mps2": np.empty(0)}
 
 
 def modal_g(a_mps2):
-    """5 % damped spectrum at the points, by another method."""
+    """5% damped spectrum at the points, by another method."""
     return psa_g(a_mps2, DT_S, POINTS_HZ)
 
 
@@ -88,7 +88,7 @@ class TestSpectrum:
             ("0.1 to 1.3 Hz, each component", 0.93, 2, True, True),
             ("0.1 to 1.3 Hz, mean of the motions", 0.93, None, False, True),
             ("1.3 to 33.3 Hz, each component", 0.91, 160, True, False),
-            ("Neighboring 1/6-octave points", 2.0, 160, False, False),
+            ("Consecutive 1/6-octave points", 2.0, 160, False, False),
             (", 1.3 to 8.3 Hz", 2.0, None, True, False),
             (", 8.3 to 33.3 Hz", 3.0, 160, False, False),
         ):
@@ -96,7 +96,7 @@ class TestSpectrum:
             assert row.found == pytest.approx(value, rel=1e-4)
             assert (row.ok, row.is_program_limit) == (satisfied, is_program_limit)
             assert worst_at is None or row.worst == f"M1 x, {POINTS_HZ[worst_at]:.3g} Hz"
-        assert only(found, "Neighboring").limit == 1.0
+        assert only(found, "Consecutive").limit == 1.0
         spectral = [row for row in found.rows if "target" in row.title]
         assert len(spectral) == 6
         assert {row.consequence for row in spectral} == {Consequence.NG}
@@ -105,7 +105,7 @@ class TestSpectrum:
     def test_a_single_point_may_fall_to_nine_tenths(self, alone, spectrum_g, ratio, ok):
         found = accepted(alone, target=below(spectrum_g, {121: ratio}))
         assert only(found, "1.3 to 33.3 Hz, each").ok is ok
-        assert only(found, "Neighboring").ok
+        assert only(found, "Consecutive").ok
         assert only(found, ", 1.3 to 8.3 Hz").found == 1.0
 
     def test_points_count_a_sixth_of_an_octave_apart_wherever_the_first_lies(
@@ -115,11 +115,11 @@ class TestSpectrum:
         for first in (93, 94, 95):
             target = below(spectrum_g, {first: 0.99, first + 4: 0.99, first + 20: 0.99})
             found = accepted(alone, target=target)
-            assert only(found, "Neighboring").found == 2.0
+            assert only(found, "Consecutive").found == 2.0
             assert only(found, ", 1.3 to 8.3 Hz").found == 3.0
         target = below(spectrum_g, dict.fromkeys((120, 121, 122, 123), 0.95))
         found = accepted(alone, target=target)
-        assert only(found, "Neighboring").found == only(found, ", 1.3 to 8.3 Hz").found == 1.0
+        assert only(found, "Consecutive").found == only(found, ", 1.3 to 8.3 Hz").found == 1.0
 
     def test_one_motion_may_be_low_and_the_vertical_has_its_own_target(self, spectrum_g):
         one, other = (motion(f"M{k}", k, **NO_Y, **NO_Z) for k in (1, 2))
@@ -165,7 +165,7 @@ def test_three_motions_of_all_components_are_enough():
         (NO_Z, "M2, no z", 2),
         (NO_Y | NO_Z, "M2, no y and no z", 1),
     ):
-        row = only(accepted(full, motion("M2", 2, **changes)), "components")
+        row = only(accepted(full, motion("M2", 2, **changes)), "Components")
         assert (row.found, row.worst, row.ok) == (count, words, count == 3)
 
 
@@ -192,7 +192,7 @@ class TestStrongMotion:
     def test_of_generated_motions_the_hold_of_the_envelope_counts(self, hold_s, ok):
         both = [motion("M1"), motion("M2", 2)]
         found = accepted(*both, holds_s=[30.0, hold_s])
-        row = only(found, "generated motions: hold")
+        row = only(found, "generated motions (hold")
         assert (row.found, row.worst, row.ok) == (hold_s, "M2", ok)
         assert row.consequence is Consequence.NG
         assert not any("records" in row.title for row in found.rows)

@@ -272,7 +272,7 @@ def test_spectra_have_names_periods_and_scaled_components(noise):
     told = ", ".join(
         f"{name} up to {peak:.3g} m/s2" for name, peak in zip("xz", peaks, strict=True)
     )
-    assert repr(found) == f"ResponseSpectrum: 3 periods, 5 %; {told}"
+    assert repr(found) == f"ResponseSpectrum: 3 periods, 5%; {told}"
     found = solver.spectrum(Record(name="a", dt_s=0.01, a_mps2=noise[:200]))
     assert found.periods_s.tolist() == PERIODS_S.tolist()
     with pytest.raises(InputError, match="periods: enter one column"):

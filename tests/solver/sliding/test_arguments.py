@@ -152,7 +152,7 @@ def test_what_a_record_or_a_motion_contradicts_is_refused(components):
     x, y, _ = components
     coarse = replace(y, dt_s=0.02)
     whole = solver.motion(x)
-    with pytest.raises(InputError, match="dt_s is given beside a record"):
+    with pytest.raises(InputError, match="dt_s is entered with a record"):
         solver.slide(x, DT_S, **SCENE)
     with pytest.raises(InputError, match=r"steps of 0\.01 s and 0\.02 s"):
         solver.slide(x, ay_mps2=coarse, **SCENE)
@@ -243,7 +243,7 @@ def test_arrays_are_taken_in_their_units(units, size):
 
 def test_units_are_known_and_too_weak_shaking_is_asked_about():
     record = solver.record_from_values("r", PULSE_G, units="g", dt_s=0.1)
-    said = "units are given beside a record or a motion, which is in m/s2; omit them"
+    said = "units are entered with a record or a motion, which is in m/s2; omit them"
     with pytest.raises(solver.InputError, match=said):
         solver.slide(record, slope_rad=0.0, mu=0.2, units="g")
     with pytest.raises(solver.InputError, match=r"units is 'ft/s2'; use one of g, m/s2, cm/s2"):
@@ -286,7 +286,7 @@ def test_the_index_of_a_series_is_its_time_and_its_name_may_have_the_unit(name, 
     [
         ("x", TIMES_S, {}, "ax_mps2 is a Series without a unit; use units, or a name such as"),
         ("a_g", [*TIMES_S[:5], 0.6], {}, "ax_mps2 has an uneven index; use times at one step"),
-        ("a_g", TIMES_S, {"dt_s": 0.1}, "dt_s is given beside a record or a motion, which has"),
+        ("a_g", TIMES_S, {"dt_s": 0.1}, "dt_s is entered with a record or a motion, which has"),
         ("a_g", range(6), {}, "dt_s is None; use a number of seconds above 0"),
         ("a_g", TIMES_S, {"ay_mps2": PULSE_G}, "some components are Series, in other units than"),
     ],

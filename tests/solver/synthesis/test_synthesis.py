@@ -157,7 +157,7 @@ class TestMaking:
         monkeypatch.setattr(suite, "THREADS", 2)
         monkeypatch.setattr(suite, "synthesize", late_first)
         made = make_suite(HORIZONTAL, VERTICAL, count=3, seed=1, progress=tell)
-        assert told == [f"{done} of 3 motions made" for done in range(4)]
+        assert told == [f"{done} of 3 motions generated" for done in range(4)]
         assert [motion.x.name for motion in made] == [f"motion-0{k}-x" for k in (1, 2, 3)]
 
     def test_a_motion_that_cannot_be_made_ends_the_suite(self, monkeypatch):
