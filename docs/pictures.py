@@ -124,11 +124,13 @@ def _browser(charts: Path) -> None:
         for chart, name in CHARTS.items():
             drawn = (charts / f"{chart}.svg").read_text(encoding="utf-8")
             html = charts / "chart.html"
-            html.write_text(f"<style>{_faces()}</style>{drawn}", encoding="utf-8")
+            large = f"<style>{_faces()} svg {{ width: {2 * WIDTH}px; height: auto }}</style>"
+            html.write_text(large + drawn, encoding="utf-8")
             page.goto(html.as_uri())
             page.evaluate("document.fonts.ready")
             page.locator("svg").screenshot(path=charts / "chart.png")
-            _save(Image.open(charts / "chart.png"), name)
+            image = Image.open(charts / "chart.png")
+            _save(_one_below_another(image) if chart.startswith("stability") else image, name)
         _page(page, charts / "page.png")
 
 
@@ -164,6 +166,24 @@ def _page(page: Page, path: Path) -> None:
         shot("browser-slide.png", LAPTOP)
 
 
+def _one_below_another(image: Image.Image) -> Image.Image:
+    """Return four maps in two columns as one column with the key below it, legible on a phone."""
+    image = image.convert("RGB")
+    half, key = image.width // 2, round(0.915 * image.height)
+    row = key // 2
+    boxes = [(left, top, left + half, top + row) for top in (0, row) for left in (0, half)]
+    # The key: its bands, then what failed and the limit.
+    left, middle = (round(share * image.width) for share in (0.13, 0.535))
+    boxes += [(left, key, middle, image.height), (middle, key, image.width, image.height)]
+    parts = [image.crop(box) for box in boxes]
+    column = Image.new("RGB", (half, sum(part.height for part in parts)), "white")
+    top = 0
+    for part in parts:
+        column.paste(part, (0, top))
+        top += part.height
+    return column
+
+
 def _models(manifest: Path) -> None:
     """Draw the runs of each project by the model that was chosen, with a reason for the last."""
     runs: dict[str, Counter[Model]] = {}
@@ -182,22 +202,23 @@ def _models(manifest: Path) -> None:
     simpler = sum(count for model, count in runs["study"].items() if model < Model.TWO_AXES)
     share = simpler / runs["study"].total()
     reasons["study"] = (
-        f"the second horizontal component; {100 * share:.0f} % of the runs do without it"
+        f"the second horizontal component is significant, except in {100 * share:.0f}% of the runs"
     )
+    # Half of the width of a page, so that a phone shows it legibly: the reason is below each row.
     with style():
-        figure = Figure(figsize=(8.0, 3.1), dpi=200)
-        axes = figure.add_axes((0.1, 0.02, 0.45, 0.74))
+        figure = Figure(figsize=(4.4, 4.6), dpi=200)
+        axes = figure.add_axes((0.17, 0.01, 0.82, 0.77))
         for row, (name, count) in enumerate(runs.items()):
             for model, found in count.items():
-                axes.barh(-row, 0.9, left=model - 0.45, height=0.62, color=ACCENT)
+                axes.barh(-row, 0.9, left=model - 0.45, height=0.36, color=ACCENT)
                 axes.text(model, -row, f"{found:,}", ha="center", va="center", color="white")
-            axes.text(4.75, -row, fill(reasons[name], 52), va="center")
+            axes.text(-0.45, -row - 0.26, fill(reasons[name], 56), va="top")
         used = [model for model in Model if model <= Model.SPEED_FRICTION]
-        axes.set_xticks(used, [fill(f"{model:d}: {model.title}", 13) for model in used])
-        axes.text(4.75, 0.9, "Why the most complete of these", va="bottom", weight="semibold")
+        axes.set_xticks(used, [fill(f"{model:d}: {model.title}", 11) for model in used])
         axes.xaxis.tick_top()
         axes.set_yticks([-row for row in range(len(runs))], list(runs))
         axes.set_xlim(-0.5, 4.5)
+        axes.set_ylim(-len(runs) + 0.25, 0.25)
         axes.tick_params(length=0)
         for side in axes.spines.values():
             side.set_visible(False)
