@@ -189,7 +189,7 @@ def test_times_and_line_numbers_beside_values_are_no_values(file):
         assert due in problem
     cards = "".join(f"{10 * math.sin(k):.3f} {10 * math.cos(k):.3f} {k}\n" for k in range(1, 51))
     (problem,) = input_problems(read_motion_file, file(HEAD.format(150) + cards))
-    assert problem.startswith("roof.csv:6: column 3 counts the lines: delete it; then")
+    assert problem.startswith("roof.csv:6: column 3 contains line numbers: delete it; then")
 
 
 def test_two_steps_are_asked_about_and_a_factor_is_noted(file):
