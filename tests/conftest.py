@@ -3,6 +3,7 @@
 import gc
 import os
 import signal
+import sys
 from contextlib import contextmanager
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the matrices are small: as in ./roofslip
@@ -36,6 +37,14 @@ def pytest_collection_finish(session):
     gc.freeze()
     gc.set_threshold(100_000, 20, 100)
     gc.enable()
+
+
+def pytest_sessionfinish():
+    """Save what a process of tests has covered: it is killed if it takes 10 s to end."""
+    coverage = sys.modules.get("coverage")
+    if coverage and (measured := coverage.Coverage.current()):
+        measured.stop()
+        measured.save()
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -100,6 +100,11 @@ def test_the_first_slip_is_at_the_first_sample_whose_ratio_exceeds_the_coefficie
         assert found == (over[0] if over.size else ratios.size)
 
 
+def test_a_block_slips_where_it_is_lifted_whatever_its_friction():
+    quiet, lift = readonly(np.zeros(4)), readonly([0.0, -9.99, -10.0, 0.0])
+    assert first_slip(quiet, quiet, lift, 0.0, 1.0, 5.0, 10.0, 1.0) == 2
+
+
 def test_a_bound_from_the_first_slip_on_is_that_of_the_whole_record():
     for seed in range(10):
         run = random_block(seed)
