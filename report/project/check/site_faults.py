@@ -39,14 +39,14 @@ def site_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
     for row in inputs["site"]:
         yield from _importance(row)
         edition = edition_of_row(row)
-        if edition is None:
-            continue
-        yield from _edition(row, edition)
+        if edition is not None:
+            yield from _edition(row, edition)
         yield from _missing_s_ds(row, edition)
-        yield from _site_class(row, edition)
-        for chain, table in zip(_CHAINS, (F_A, F_V), strict=True):
-            yield from _agreement(row, edition, chain)
-            yield from _below_table(row, edition, chain, table, where)
+        if edition is not None:
+            yield from _site_class(row, edition)
+            for chain, table in zip(_CHAINS, (F_A, F_V), strict=True):
+                yield from _agreement(row, edition, chain)
+                yield from _below_table(row, edition, chain, table, where)
         yield from _sdc(row)
 
 
@@ -78,7 +78,13 @@ def _edition(row: InputRow, edition: Edition) -> Iterator[Finding]:
             yield _fault(field, text, remedy)
 
 
-def _missing_s_ds(row: InputRow, edition: Edition) -> Iterator[Finding]:
+def _missing_s_ds(row: InputRow, edition: Edition | None) -> Iterator[Finding]:
+    if any(name not in row for name, _ in _CHAINS[0]):
+        return
+    if edition is None:  # what S_DS follows from is not known before it
+        if all(row[name] is None for name, _ in _CHAINS[0]):
+            yield _fault("s_ds_g", "S_DS is missing", "enter S_DS")
+        return
     parameters = site_parameters(row)
     if parameters is None or parameters.s_ds is not None:
         return
@@ -171,13 +177,16 @@ def _or_study(field: str, fault: str, remedy: str, table: CoefficientTable) -> F
 
 
 def _sdc(row: InputRow) -> Iterator[Finding]:
-    parameters, risk_category = site_parameters(row), row.get("risk_category")
-    if "sdc" not in row or not parameters or parameters.s_ds is None or risk_category is None:
+    if any(name not in row for name in ("sdc", "s_1_g", "s_d1_g")):
         return
+    parameters, risk_category = site_parameters(row), row.get("risk_category")
+    is_known = parameters and parameters.s_ds is not None and risk_category is not None
     sdc, possible = row["sdc"], categories(row)
-    if sdc is None:
+    # Without S_1 no category follows, whatever S_DS will be.
+    if sdc is None and (is_known or row["s_1_g"] is None):
         missing = " and ".join(category_lacks(row))
         yield _fault("sdc", f"{_SDC} is missing", f"choose A, B, C, D, E or F, or enter {missing}")
+    if sdc is None or not parameters or not is_known:
         return
     # ASCE 7 11.6: the more severe of two tables; S_1 from 0.75 g on gives E, or F in category IV.
     reasons = (

@@ -181,8 +181,9 @@ def categories(row: InputRow) -> tuple[str, str, str]:
 
 
 def category_lacks(row: InputRow) -> tuple[str, ...]:
-    """Return the symbols without which the SDC of a row with S_DS does not follow."""
+    """Return the symbols without which the SDC of a row does not follow from its S_DS."""
     by_s_ds, by_s_d1, by_s_1 = categories(row)
+    by_s_d1 = by_s_d1 or row["s_d1_g"]  # without S_DS it gives none yet
     # The tables end at D, and S_1 from 0.75 g on leads beyond them: there S_D1 changes nothing.
     needs_s_d1 = by_s_ds != MOST_BY_TABLES and not by_s_d1 and not by_s_1
     lacks = {"S_1": row["s_1_g"] is None, "S_D1": needs_s_d1}

@@ -173,6 +173,10 @@ CONTRADICTIONS = [
     ({"Site/Risk category": "IV", "Site/Importance factor I_e": 1.25},
      "Site/Importance factor I_e is 1.25; enter at least 1.5 for risk category IV"),
     ({"Site/S_DS": None}, "Site/S_DS is missing; enter S_DS, S_MS, or both S_S and F_a"),
+    ({"Site/Rule set": None, "Site/S_DS": None, "Site/Seismic design category": None},
+     "Site/Rule set is missing; choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22",
+     "Site/S_DS is missing; enter S_DS",
+     "Site/Seismic design category is missing; choose A, B, C, D, E or F, or enter S_1 and S_D1"),
     ({"Arrays/A2/Slope": 120}, "Arrays/A2/Slope is 120 percent; enter 0 to less than 100 percent"),
     (row_cells("Arrays/A2", {"Friction rate": 20, "Static friction": 0.4}),
      "Arrays/A2/High-velocity friction is missing; enter high-velocity friction and friction rate,"
