@@ -111,6 +111,8 @@ class Check:
     actor: Actor = Actor.ENGINEER
     remedy: str = ""
     """What they must do to satisfy it, as a sentence."""
+    cell: str = ""
+    """Cell that the sentence ends with, in parentheses."""
     otherwise: str = ""
     """What the project comes to if it is not met, or with another input, as a sentence."""
     places: tuple[Place, ...] = ()
@@ -124,7 +126,8 @@ class Check:
     @property
     def to_close(self) -> str:
         """The remedy of what is not satisfied; empty where nothing is to be done."""
-        return "" if self.is_satisfied else self.remedy
+        cell = f" ({self.cell})." if self.cell else ""
+        return "" if self.is_satisfied else self.remedy.removesuffix("." if cell else "") + cell
 
     @property
     def is_note(self) -> bool:

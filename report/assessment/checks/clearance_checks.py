@@ -72,7 +72,8 @@ def of_neighbors(done: Assessment) -> Iterator[Check]:
                 is_satisfied=False,
                 # Where a row and the plan differ it is not known here which of them is right.
                 consequence=Consequence.NG if near.is_short else Consequence.CONDITION,
-                remedy=f"{capitalized(words)} ({cell}).",
+                remedy=f"{capitalized(words)}.",
+                cell=cell,
             )
     if done.neighbors and not any(near.shortcomings() for near in done.neighbors):
         yield condition(

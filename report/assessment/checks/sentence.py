@@ -12,6 +12,7 @@ from dataclasses import replace
 from itertools import chain
 
 from report.assessment.checks.check import Check, Sense
+from report.project.check.finding_lines import listed
 from report.text.amounts import Amount, amount_text, amount_texts
 from report.text.grouping import grouped_by
 from report.text.letter_case import capitalized, lowered
@@ -111,6 +112,7 @@ def _as_one(group: Sequence[Check]) -> Check:
         found_value = _apart(group)
     else:
         found_value, note = _found(group), ""
+    by_remedy = grouped_by(group, lambda check: check.remedy)
     arrays = dict.fromkeys(chain.from_iterable(check.arrays for check in group))
     places = dict.fromkeys(chain.from_iterable(check.places for check in group))
     return replace(
@@ -120,10 +122,16 @@ def _as_one(group: Sequence[Check]) -> Check:
         limit=limit,
         note=note,
         arrays=tuple(arrays),
-        remedy=" ".join(dict.fromkeys(check.remedy for check in group)),
+        remedy=" ".join(_closed(checks) for checks in by_remedy.values()),
+        cell="",
         otherwise=" ".join(dict.fromkeys(c.otherwise for c in group if c.otherwise)),
         places=tuple(places),
     )
+
+
+def _closed(checks: Sequence[Check]) -> str:
+    """Return the remedy of checks that have one, with the first few of their cells."""
+    return replace(checks[0], cell=listed(check.cell for check in checks)).to_close
 
 
 def size(check: Check) -> tuple[float, float]:

@@ -109,6 +109,16 @@ def test_of_amounts_that_nothing_is_compared_with_the_safe_one_stands_for_all():
     assert alike(of)[0].found == demand(3, mark=" (A3)")
 
 
+def test_what_asks_the_same_of_many_cells_says_so_once_with_the_first_few():
+    said = {"remedy": "Correct the clearance.", "subject": "A1 to N"}
+    of = [check(**said, cell=f"Clearances!E{row}") for row in range(8, 69)]
+    close = "Correct the clearance (Clearances!E8, Clearances!E9, Clearances!E10 and 58 more)."
+    assert of[0].to_close == "Correct the clearance (Clearances!E8)."
+    assert alike(of)[0].to_close == close
+    other = check(subject="A2 to N", cell="Clearances!E70")
+    assert alike([*of, other])[0].to_close == f"{close} Widen the clearance (Clearances!E70)."
+
+
 @pytest.mark.quick
 def test_a_ratio_follows_from_the_amounts():
     most = {"sense": Sense.AT_MOST, "limit": capacity(2.0)}
