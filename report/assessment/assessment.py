@@ -191,11 +191,15 @@ class Assessment:
         return [gap for gap in self.clearances if gap.involves(array_id)]
 
     def governing_gap(self, array_id: str = "") -> ComparedGap | None:
-        """Return the gap with the largest D/C, if any; of an array that from either side."""
+        """Return the gap with the largest D/C, of equal ones what lacks most; None for none."""
         # Pairs that the plan shows to be short and no clearance covers are gaps as well.
         gaps: Sequence[ComparedGap] = (*self.clearances, *self.missing_gaps)
         concerned = [gap for gap in gaps if not array_id or gap.involves(array_id)]
-        return max(concerned, key=lambda gap: nan_is_worst(gap.demand_capacity), default=None)
+
+        def size(gap: ComparedGap) -> tuple[float, float]:
+            return nan_is_worst(gap.demand_capacity), nan_is_worst(gap.required_m)
+
+        return max(concerned, key=size, default=None)
 
 
 def _required_separation(done: Assessment, near: PlanNeighbor) -> tuple[float, str]:

@@ -9,24 +9,24 @@ from collections.abc import Sequence
 
 from report.assessment.assessment import Assessment
 from report.assessment.checks.check import MOTIONS_ID, Check, by_ratio
-from report.assessment.checks.sentence import alike, words
+from report.assessment.checks.sentence import alike, size, words
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.verdict import Verdict
 from report.text.counts import numbered
 from report.text.grouping import grouped_by
-from report.text.units import nan_is_worst
 
 # Checks that a sentence names.
 MOST_NAMED = 4
 
 
 def failed(done: Assessment) -> Sequence[Check]:
-    """Return what is NG, the largest ratio first, without what follows from no displacement."""
+    """Return what is NG, the worst first, without what follows from no displacement."""
     of_all = [check for check in done.open if check.verdict is Verdict.NG]
     # Only of what lacks nothing but a design displacement another check says why.
     causes = [check for check in of_all if not check.lacks_design] or of_all
     # That no displacement is permitted follows from the others, too.
-    return sorted(causes, key=lambda check: (check.id == "design", -nan_is_worst(check.ratio)))
+    ordered = sorted(causes, key=size, reverse=True)
+    return sorted(ordered, key=lambda check: check.id == "design")
 
 
 def largest(done: Assessment) -> Sequence[Check]:
