@@ -244,7 +244,7 @@ def verdict(workbook: Path, job: Json) -> Json:
     found = given.assessed(Extent.AS_GIVEN).verdict
     # Less friction turns an OK into one with conditions, and nothing else.
     if found is Verdict.OK:
-        found = given.assessed().verdict
+        found = given.assessed(Extent.LESS_FRICTION).verdict
     return stamp(found, found.value)
 
 
