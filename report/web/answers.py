@@ -6,6 +6,7 @@ Computes nothing: every number and verdict is that of `report.assessment`. Read 
 from __future__ import annotations
 
 import math
+import string
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any
@@ -162,9 +163,19 @@ def _reasons(assessment: Assessment) -> Iterator[Mapping[str, Any]]:
     """Yield what needs attention, each with the checks that it joins."""
     us_first = assessment.project.us_first
     joined = {sentence(check, us_first): check for check in assessment.open}
-    for level, text in attention(assessment, may_run=False):
-        parts = _joined_by(assessment, joined[text]) if text in joined else []
-        yield {"level": level, "text": text, "parts": list(map(words, parts))}
+    for group in grouped_by(attention(assessment, may_run=False), _about).values():
+        level, text = group[0]
+        parts = list(map(words, _joined_by(assessment, joined[text]))) if text in joined else []
+        if len(group) > 1:
+            parts = [each for _, each in group]
+            text += f", and {numbered(len(group) - 1, 'more warning')} in this column"
+        yield {"level": level, "text": text, "parts": parts}
+
+
+def _about(found: tuple[str, str]) -> str:
+    """Return what is said as one: warnings on a column of the workbook, and all else by itself."""
+    level, text = found
+    return text.partition(":")[0].rstrip(string.digits) if level == "warning" else text
 
 
 def _joined_by(assessment: Assessment, joined: Check) -> Sequence[Check]:

@@ -108,12 +108,20 @@ def test_alike_arrays_are_one_row_and_what_is_joined_in_a_cause_is_listed():
     )
     assert len(names) < 10
     (joined,) = (one for one in found["reasons"] if one["text"].startswith("Clearance, "))
+    (warned,) = (one for one in found["reasons"] if one["level"] == "warning")
+    assert warned["text"].startswith("Clearances!E8: provided clearance is ")
+    assert warned["text"].endswith(
+        "[clearance A1 to A2 cross-slope], and 60 more warnings in this column"
+    )
+    assert len(set(warned["parts"])) == 61
     failed = [check for check in done.checks if check.id == "clearance" and not check.is_satisfied]
     assert len(joined["parts"]) == len(failed) > 20
     assert joined["parts"][0].startswith("clearance ")
     # Without any capacity D/C is infinite of all: first is what lacks most.
     lacking = sorted(failed, key=lambda check: check.limit.value, reverse=True)
     assert joined["parts"] == list(map(words, lacking)) != list(map(words, failed))
+    worst = [answer(done, is_provisional=one)["worst"]["text"] for one in (True, False)]
+    assert worst == [f"Clearance {lacking[0].subject}{more}" for more in ("", " and 60 more")]
     assert all(not one["parts"] or len(one["parts"]) > 1 for one in found["reasons"])
 
 
