@@ -37,7 +37,7 @@ _TYPE_PX = 13.0  # of the page
 _PX = _TYPE_PX / (TYPE_PT / 72.0)  # in an inch
 _LEAST_PX, _STEP_PX, _KEY_PX = 340, 40, 52.0
 _TALLER = 0.72  # than wide; the least and the most fit the first screen of a phone and of a monitor
-_TALL_PX = (380.0, 540.0)
+_TALL_PX = (350.0, 540.0)
 USUAL_PX = 740
 """Width of the plan on a page that has not said how wide it is."""
 _CLASSES: Mapping[Look, str] = {

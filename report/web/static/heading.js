@@ -59,6 +59,7 @@ function showFields({ problems = "", fields }, title, advice) {
   replace(element.querySelector(".problems"), ...parsed("table", problems).childNodes);
   replace(element.querySelector(".fields"), ...parsed("div", fields).childNodes);
   typed = {};
+  part("live").textContent = ""; // it has the verdict of what was open
   element.hidden = false;
   heading.focus();
   return typed;

@@ -117,7 +117,7 @@ def test_values_of_a_slider_that_moves_are_provisional_and_carry_no_verdict(clie
 
 @pytest.mark.parametrize(
     ("room", "size"),
-    [(0, [340, 380]), (379, [340, 380]), (380, [380, 380]), (779, [740, 533]), (9999, [9980, 540])],
+    [(0, [340, 350]), (379, [340, 350]), (380, [380, 350]), (779, [740, 533]), (9999, [9980, 540])],
 )
 def test_the_plan_is_placed_on_the_widest_sheet_that_the_page_has_room_for(client, room, size):
     body = {"page": "p", "n": 1, "values": {}, "room": room}

@@ -133,7 +133,7 @@ def states(page, folder):
     yield "a faulty workbook without its records"
     back()
     named("New project").click()
-    page.get_by_text("no array is given").wait_for()
+    page.get_by_text("no array is entered").wait_for()
     yield "a new project"
     back()
 
@@ -190,12 +190,35 @@ def test_make_package_is_on_the_first_screen_of_a_laptop(shown):
     assert shown.evaluate(SIZES) == ["13px", "15px", "22px"]
 
 
-@pytest.mark.nightly
-def test_a_printed_page_has_its_version_and_date_and_no_heading_alone_at_a_foot(shown):
-    pages = PdfReader(io.BytesIO(shown.pdf(prefer_css_page_size=True))).pages
-    texts = [page.extract_text() for page in pages]
-    assert "Roofslip" in texts[0]
-    assert "printed" in texts[0]
+def printed(page):
+    """The texts of a page as printed, each sheet numbered and no heading alone at its foot."""
+    sheets = PdfReader(io.BytesIO(page.pdf(prefer_css_page_size=True))).pages
+    texts = []
+    for number, sheet in enumerate(sheets, start=1):
+        foot = f"Page {number} of {len(sheets)}"
+        text = sheet.extract_text()
+        assert foot in text
+        texts.append(text.replace(foot, "").strip())
     heads = ("Arrays: displacement", "Clearances", "No. From, to Provided Required D/C Verdict")
-    for text in texts:
-        assert not text.strip().endswith(heads)
+    assert not any(text.endswith(heads) for text in texts)
+    return texts
+
+
+@pytest.mark.nightly
+def test_a_printed_page_has_its_version_and_date(shown):
+    first = printed(shown)[0]
+    assert "Roofslip" in first
+    assert "printed" in first
+
+
+@pytest.mark.nightly
+def test_30_arrays_with_61_clearances_ng_are_printed_whole_on_four_sheets(
+    browser, address, crowded
+):
+    with quiet_page(browser) as page:
+        opened_crowded(page, address, crowded)
+        texts = printed(page)
+    assert len(texts) <= 4
+    rows = [line for text in texts for line in text.splitlines() if line.endswith("NG")]
+    assert len([row for row in rows if re.match(r"\d+ ?A\d+", row)]) == 61
+    assert sum(LONG in row for row in rows) == 5
