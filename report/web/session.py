@@ -151,7 +151,9 @@ class Session:
         for is_quick, do in ((False, "state"), (True, "prepare")):
             job = {"do": do, "workbook": str(EXAMPLE)}
             with suppress(LostError):
-                await self._answer(job, is_quick, longest_s=None)  # it may compile the solver
+                reply = await self._answer(job, is_quick, longest_s=None)  # may compile the solver
+                if project := reply.get("answer", {}).get("project"):
+                    self._names[project["id"]] = EXAMPLE_NAME
             await self._end_turn(is_quick)
 
     def prepare(self, workbook: Path) -> None:

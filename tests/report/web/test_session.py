@@ -9,7 +9,15 @@ import pytest
 
 from report.web import session as sessions
 from report.web.processes import WorkerProcess
-from report.web.session import EXAMPLE, Asked, ClosedError, LostError, Session, StaleError
+from report.web.session import (
+    EXAMPLE,
+    EXAMPLE_NAME,
+    Asked,
+    ClosedError,
+    LostError,
+    Session,
+    StaleError,
+)
 
 
 def nothing():
@@ -236,3 +244,15 @@ def test_projects_stay_open_beside_each_other_until_there_are_too_many(tmp_path,
     with pytest.raises(ClosedError):
         session.workbook(folders[0].name)
     assert session.workbook("example") == EXAMPLE
+
+
+def test_the_address_of_the_example_is_known_before_anyone_opens_it(tmp_path, monkeypatch):
+    async def answer(*_, longest_s):
+        return {"answer": {"project": {"id": "0123456789ab"}}}
+
+    session = Session(tmp_path)
+    monkeypatch.setattr(session, "_answer", answer)
+    asyncio.run(session._warm())
+    session.open(tmp_path / "upload-1" / "input.xlsx", "another")
+    assert session.named("another") == "upload-1"
+    assert session.named("0123456789ab") == EXAMPLE_NAME
