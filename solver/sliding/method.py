@@ -49,7 +49,7 @@ class Outcome(NamedTuple):
     """Result of a method, along the slope: [m], [m/s], [s].
 
     The largest speed and the events are those of the exact kernel, the events where a history is
-    asked for: time, kind (see `kernels.one_axis`) and s, shape (m, 3). NaN and none without it.
+    asked for: time, number of the kind and s, shape (m, 3). NaN and none without it.
     """
 
     followed: bool
