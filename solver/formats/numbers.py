@@ -124,7 +124,7 @@ def free_values(source: Source, block: Block) -> Floats:
     if len(values) != block.count:
         if len(values) == 2 * block.count and rising(values.reshape(-1, 2)) == [0]:
             raise InputError(
-                f"{source.at(block.promised)}: states {block.count} values, found times beside"
+                f"{source.at(block.promised)}: states {block.count} values, found times next to"
                 " them; delete the lines above the times, and enter a heading such as time_s,acc_g"
             )
         raise InputError(_wrong_count(source, block, len(values)))
