@@ -204,7 +204,7 @@ def test_the_chart_has_a_panel_for_each_state_with_the_p_value_of_the_table(fitt
     p = [digits_down(s.fragility.p_value, 2) for s in fitted.arrays[0].states[:2]]
     assert texts == [f"LS1: p = {p[0]}", f"LS2: p = {p[1]}"]
     assert pages.study(fitted).table("Fragilities").column("p of fit") == [*p, "—"]
-    assert "leave in 5% of lognormal samples." in pages.study(fitted)
+    assert "that contains the ranks of 95% of lognormal samples." in pages.study(fitted)
 
 
 def test_without_a_p_value_there_is_no_chart(fitted):
