@@ -148,6 +148,6 @@ def _years(name: str, content: bytes) -> StudyYears:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"])) or "its text"
         raise InputError(
-            f"'{name}'is not a {YEARS} of a study ({where}: {first['msg']}); use the file that"
+            f"'{name}' is not a {YEARS} of a study ({where}: {first['msg']}); use the file that"
             " roofslip study writes where its workbook has a hazard curve"
         ) from error

@@ -269,5 +269,5 @@ def test_the_file_is_attached_or_refused_at_its_cell(tmp_path):
     assert json.loads(book.files[document.sha256]) == YEARS
     path.write_text(json.dumps(YEARS | {"note": "code value"}))
     _, (fault,) = read_documents(book, inputs)
-    assert "is no years.json of a study (note: " in fault.text
+    assert "is not a years.json of a study (note: " in fault.text
     assert fault.place.field == "study_years"

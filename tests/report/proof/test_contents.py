@@ -114,7 +114,7 @@ def test_json_is_read_as_it_is_and_types_shared_numbers_and_letters_are_compared
     ours = {"a": 1.0, "name": "A", "list": [1.0, 2.0], "new": 3.0}
     theirs = {"a": 1.0, "name": "B", "list": [1.0], "old": 4}
     assert not list(differences(theirs, ours, shared=True))
-    assert list(differences({"a": 1.1}, ours, shared=True)) == ["a is 1.1; the input gives 1.0"]
+    assert list(differences({"a": 1.1}, ours, shared=True)) == ["a is 1.1; the input produces 1.0"]
     assert len(list(differences({"list": [1.0, 2.1]}, ours, shared=True))) == 1
     assert first_other_word("RTU- 1\n10 .", "RTU-1 10.") == ""
     assert first_other_word("a b 24.0 in", "ab 24.1 in") == '"24.0" where the input produces "24.1"'

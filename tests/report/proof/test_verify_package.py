@@ -398,7 +398,7 @@ def test_another_drawing_is_never_the_same(tampered, few_sheets, change, softwar
 def test_words_and_numbers_are_compared_whatever_software_is_named(proof, few_sheets, kind):
     named = tampering.rewritten(few_sheets, tampering.of_other_software)
     (told,) = proof(kind(named, random.Random(3)), few_sheets).reasons
-    assert "the input gives" in told
+    assert "the input produces" in told
 
 
 @pytest.mark.nightly
