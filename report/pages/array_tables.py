@@ -111,10 +111,10 @@ def schedule(package: PackageData) -> Table:
     columns: list[Column] = [
         (words("Array", 1.1), lambda item: item.id),
         (plain("Slope", 2, "deg", 0.8), lambda item: math.degrees(item.array.slope_rad)),
-        (text("μ", share=package.mu_share), lambda item: mu_words(item.array.friction)),
+        (text("μ", share=1.2 * package.mu_share), lambda item: mu_words(item.array.friction)),
         (weight("Weight W"), lambda item: item.array.weight_n),
         (required("Design displ.", 0.9), lambda item: item.permitted_m, package.marks.design),
-        (text("Keep clear", share=1.2), lambda item: _keep_clear(done, item)),
+        (text("Keep clear", share=1.4), lambda item: _keep_clear(done, item)),
         (weight("Interconnection", show=no_less), lambda item: item.interconnection_n,
          lambda _: package.marks.of("interconnection_sds"), _strength_show),
     ]  # fmt: skip

@@ -82,7 +82,7 @@ class PackageData:
     def mu_share(self) -> float:
         """Width of a column of friction coefficients: wide where one depends on velocity."""
         # A law by velocity prints two coefficients and a rate in one cell.
-        return 2.4 if any(array.friction.is_by_velocity for array in self.data.arrays) else 0.9
+        return 2.8 if any(array.friction.is_by_velocity for array in self.data.arrays) else 0.9
 
     def sentences(self, id: str, arrays: Collection[str] = ()) -> Sequence[str]:
         """Return the open checks of a kind in words, those that ask the same as one."""
