@@ -179,7 +179,7 @@ _ALL = (
     *(
         _without_setting(
             name=f"compiled-{name.lower()}",
-            title=f"Coulomb friction, {name} with events, compiled whole",
+            title=f"Coulomb friction, {name} with events, fully compiled",
             label=f"{name}, events (compiled)",
             invalid_when=f"{_AS_ACCURATE}Its steps are compiled with what restarts them.",
             source=f"solver.kernels.runge_kutta.slide_line: {authors}",
