@@ -7,7 +7,8 @@ import { frame, linesAcross, linesUp, pointerIn, scale, setSize, textsAcross, te
 
 const LEFT = 46;
 const RIGHT = 8;
-const HEAD = 20; // height of a heading, as in views.css
+const HEAD = 20; // height of a line of a heading, as in views.css
+const NARROW = 340; // below it a heading has a line more, and so has the whole
 const AXIS = 22;
 const ROOM = 0.06; // of the range of the values, above and below
 let made = 0;
@@ -48,6 +49,7 @@ export function createPanels(panels, { seconds, slips }) {
     /** Fill a width and height. */
     resize(width, height) {
       size = { width, height };
+      element.classList.toggle("is-narrow", width < NARROW);
       draw();
     },
     /** Show a span of time. */

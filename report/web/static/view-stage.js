@@ -200,12 +200,12 @@ function translation([x, y]) {
 }
 
 function drawFoot(foot, { cx, cy, scale: { title, pixel, moves, factor }, data: { plan, relative } }) {
-  const shown = `${title}, motion ${factor === 1 ? "to scale" : `× ${factor}`}`;
+  const shown = moves && `Motion ${factor === 1 ? "to scale" : `× ${factor}`}`;
   const [dx, dy] = inPlan(1, 0, plan.downslope_deg);
   replace(
     foot,
     scaleBar([-cx + 10, cy - 12], relative.units[0], pixel, BAR),
-    svg("text", { class: "tick on-line", x: -cx + 10, y: -cy + 16 }, moves ? shown : title),
+    [title, shown].map((words, k) => words && svg("text", { class: "tick on-line", x: -cx + 10, y: -cy + 16 * (k + 1) }, words)),
     arrow([cx - 26, cy - 26], [dx, -dy], 14),
     svg("text", { class: "tick on-line end-at", x: cx - 8, y: cy - 48 }, "downslope"),
   );
