@@ -52,9 +52,9 @@ export function createApi(announce, room) {
   // A provisional answer stays one while the full model is asked ahead: it is a kind of its own.
   const computed = (kind, body, as = kind) => latest(as, (number) => asked(`/api/${kind}`, about({ page, n: number, ...body })));
 
-  // Of two projects, the one that was opened last stays, whichever answer comes first.
-  async function open(url, options) {
-    const state = await latest("open", () => asked(url, options));
+  // Of two projects, the one that was opened last stays, whichever answer comes first, with what more comes.
+  async function open(url, options, more = async () => ({})) {
+    const state = await latest("open", async () => ({ ...(await asked(url, options)), ...(await more()) }));
     if (state?.project) opened = state.opened; // one with errors is not opened
     return state;
   }
@@ -67,9 +67,9 @@ export function createApi(announce, room) {
     example: () => open("/api/example", { method: "POST" }),
     upload: (files) => open("/api/upload", { method: "POST", body: form(files) }),
     readPlan: (files, fields) => open("/api/plan", { method: "POST", body: form(files, fields) }),
-    fillCells: (files, cells) => open("/api/cells", { method: "POST", body: form(files, { cells: JSON.stringify(cells) }) }),
+    fillCells: (files, cells) => open("/api/cells", { method: "POST", body: form(files, { cells: JSON.stringify(cells) }) }, async () => ({ filled: await filledWorkbook() })),
     blank: (units) => downloaded(`/api/blank?units=${units}`),
-    filledWorkbook: () => downloaded("/api/plan"),
+    filledWorkbook,
     addClearances: () => open("/api/clearances", about({})),
     tables: () => asked("/api/tables", about({})),
     edit: (cells) => open("/api/edit", about({ cells })),
@@ -117,6 +117,10 @@ function json(body) {
 async function asked(url, options) {
   const reply = await sent(url, options);
   return reply.json();
+}
+
+function filledWorkbook() {
+  return downloaded("/api/plan");
 }
 
 // The bytes of a file and the name that the server gives it.

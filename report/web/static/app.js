@@ -168,13 +168,12 @@ async function fillCells() {
   await opening(
     async () => {
       next = await api.fillCells(dropped, typed);
+      if (next) putBack(next.filled); // before it is shown, and may be checked again
       return next;
     },
     { words: "Checking the workbook …" },
   );
-  if (!next) return;
-  putBack(await api.filledWorkbook());
-  Object.assign(typed, { ...before, ...typed }); // in a zip the workbook stays as it was
+  if (next) Object.assign(typed, { ...before, ...typed }); // in a zip the workbook stays as it was
 }
 
 async function saveFilled() {

@@ -102,6 +102,22 @@ def test_what_was_edited_stays_when_records_follow(page, tmp_path):
 
 
 @pytest.mark.nightly
+def test_what_was_typed_stays_when_it_is_checked_again_before_the_filled_workbook_came(page):
+    held = []
+    page.get_by_role("button", name="New project").click()
+    page.route("**/api/plan", lambda route: held.append(route))
+    for label, text in (("project name is missing", "Shed"), ("project number is missing", "S-1")):
+        page.get_by_label(label).fill(text)
+        with page.expect_response("**/api/cells"):
+            page.get_by_role("button", name="Fill in and check").click()
+    for route in held:
+        route.continue_()
+    page.get_by_text("project number is missing").wait_for(state="detached")
+    assert page.get_by_text("project name is missing").count() == 0
+    assert page.get_by_text("prepared by is missing").count() == 1
+
+
+@pytest.mark.nightly
 def test_a_zip_with_two_errors_is_filled_in_one_after_the_other(page, tmp_path):
     project = shutil.copytree(CONDITIONS, tmp_path / "a", ignore=shutil.ignore_patterns("out"))
     cells = {"Arrays/A1/CG height": "low", "Arrays/A2/Slope": "steep"}
