@@ -56,4 +56,5 @@ def parts() -> Any:
 
 def subscripted(text: str) -> Markup:
     """Return words with their subscripts: S_DS is an S with a small DS."""
-    return Markup(_SUBSCRIPT.sub(r"\1<sub>\2</sub>", escape(text)))
+    # Not of what `escape` returns, which would escape the subscripts as well.
+    return Markup(_SUBSCRIPT.sub(r"\1<sub>\2</sub>", str(escape(text))))

@@ -12,7 +12,7 @@ from report.assessment.design.friction import with_friction
 from report.assessment.design.verdict import Verdict
 from report.web.answers import answer
 from report.web.open_project import open_project
-from report.web.parts import parts
+from report.web.parts import parts, subscripted
 from report.web.plan import stamp
 
 
@@ -52,6 +52,12 @@ def test_an_ok_that_less_friction_may_change_is_not_said(assessed, monkeypatch):
     found = answer(assessed, is_provisional=False)
     assert (found["verdict"]["text"], found["verdict_text"]) == ("OK (provisional)", None)
     assert found["line"] == found["pending"] != ""
+
+
+@pytest.mark.quick
+def test_symbols_are_set_with_their_subscripts_and_what_is_like_html_as_it_stands():
+    html = "S<sub>DS</sub> &lt; F<sub>a</sub> of a_b"
+    assert str(subscripted("S_DS < F_a of a_b")) == html
 
 
 def test_a_row_keeps_its_place_while_provisional_and_has_no_verdict_then(assessed):
