@@ -65,7 +65,7 @@ def stand_ins(count: int) -> Iterator[Motion]:
 def studied(campaign: Campaign, folder: Path) -> float:
     """Run a campaign; return its processor time [s]."""
     manifest, started = manifest_of(campaign, {}), time.process_time()
-    begin(folder, manifest, former=0)
+    begin(folder, manifest, n_earlier=0)
     numbers = range(len(campaign.parts))
     run_missing(folder, campaign, manifest["identity"], ["roof"], numbers, KEY, lambda done: None)
     return time.process_time() - started

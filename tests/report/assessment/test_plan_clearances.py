@@ -183,7 +183,7 @@ def test_rows_that_stand_are_kept_and_said_where_they_differ(tmp_path):
     output = fill(tmp_path)
     wanted = "<Clearances/1/Provided clearance>: A1 to A2: 130.0 in (3302 mm) entered, 120.0 in"
     assert cell_address(wanted) in output
-    assert "A2 to RTU-1, up, 60.0 in (1524 mm)" in output
+    assert "A2 to RTU-1, upslope, 60.0 in (1524 mm)" in output
     assert "2 kept" in output
     inputs = read(path).inputs["clearances"]
     assert [row["object"] for row in inputs[:2]] == ["A2", "GONE"]
@@ -210,9 +210,8 @@ def test_rows_from_the_drawing_are_renewed_and_typed_ones_stay(tmp_path):
     assert after["A1", "A2"].provided_m == pytest.approx(156 * INCH)
     assert after["A2", "RTU-1"].provided_m == pytest.approx(55 * INCH)
     where = f"<Clearances/{typed['A1', 'A2']}/Provided clearance>"
-    assert (
-        cell_address(f"{where}: A1 to A2: across, 120.0 in (3048 mm); now across, 156.0") in output
-    )
+    differs = "A1 to A2: cross-slope, 120.0 in (3048 mm); now cross-slope, 156.0 in (3962 mm)"
+    assert cell_address(f"{where}: {differs}") in output
     assert "0 clearances added, 1 renewed, 1 kept" in output
 
 

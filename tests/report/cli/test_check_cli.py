@@ -137,7 +137,7 @@ def test_report_as_json_has_arrays_causes_and_files(steep):
 
 SI = LENGTHS | WEIGHTS | PRESSURES
 NUMBER = re.compile(
-    r"(?:at least|at most|≥|≤|=|give|the friction coefficient,) (?:period T1, )?"
+    r"(?:at least|at most|≥|≤|=|enter|the friction coefficient,) (?:period T1, )?"
     r"(?P<value>[\d,]*\d(?:\.\d+)?)(?:° \((?P<percent>[\d.]+) %\))? ?(?P<unit>[a-zA-Z]\w*)?"
 )
 BLANK = re.compile(r"leave (?:it|this|one of them) blank")
@@ -211,7 +211,7 @@ def unplaced(given, row):
     """The cells of the object of a clearance in the plan, which a larger gap would contradict."""
     ids = [each.id for each in given.project.objects]
     index = ids.index(given.project.clearances[row].object)
-    return {given.sheet.addresses[Place("objects", index, side)]: None for side in SIDES}
+    return {given.source.addresses[Place("objects", index, side)]: None for side in SIDES}
 
 
 @pytest.mark.parametrize("name", PROJECTS)
@@ -221,7 +221,7 @@ def test_a_value_that_is_required_satisfies_as_it_is_printed(altered, name):
     given, book = assessed(path), load_workbook(path)
     asked, cells = list(required(given)), {}
     for _, place, text in asked:
-        cell = given.sheet.addresses[place]
+        cell = given.source.addresses[place]
         cells[cell] = typed(book, cell, text)
         if place.section == "clearances":
             cells |= unplaced(given, place.row)
@@ -263,7 +263,7 @@ def advice(path):
     """Cell, what it is, and the advice, of each line of `check` with something to enter."""
     for line in run("check", path).output.splitlines():
         found = PLACED.match(line)
-        text = found and re.search(r"\b(?:give|leave|at most|at least)\b.*", found["text"])
+        text = found and re.search(r"\b(?:enter|leave|at most|at least)\b.*", found["text"])
         if text and (BLANK.search(text[0]) or NUMBER.search(text[0])):
             what = re.split(": | is ", found["text"])[0]
             if "Final " in what:  # of a record: no cell has it

@@ -226,7 +226,7 @@ CONTRADICTIONS = [
     ({"Site/Long-period transition T_L": 0.5, "Site/F_v": 1.7},
      "Site/Long-period transition T_L is 0.5 s; enter more than T_S = S_D1/S_DS = 0.507 s"),
     (row_cells("Options/2", {"Provision": "parapet_height_in", "Value": 20, "Reason": "x"}),
-     "Options/2/Provision is 'Qualifying parapet height above the roof', already given"
+     "Options/2/Provision is 'Qualifying parapet height above the roof', already entered"
      " at <Options/1/Provision>; delete one"),
     ({"Site/Latitude": 34.0},
      "Site/Longitude is missing; enter latitude and longitude, or neither"),

@@ -216,7 +216,7 @@ def test_an_acknowledgment_of_no_warning_is_a_note_at_its_cell(tmp_path):
     rows = [{"warning": "wieght A1", "reason": "Frames alone"}]
     cell, text = (
         cell_address("Acknowledged/1/Warning"),
-        "warning is 'wieght A1', which is not entered;",
+        "warning is 'wieght A1', which is not among the warnings;",
     )
     _, found = findings_of(make(tmp_path, acknowledged=rows, arrays=arrays(weight_n=30 * LB)))
     assert found == ("", cell, f"{text} did you mean 'weight A1'?")

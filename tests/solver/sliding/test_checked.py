@@ -420,9 +420,9 @@ def compiled():
 for name in PARTS:
     PARTS[name]()
 before = compiled()
-import stand_in
+from fixtures import projects
 from report.assessment.support.evidence import support
-support(stand_in.assess_input(stand_in.project(), stand_in.motions(2, seconds=8.0)))
+support(projects.assess_input(projects.project(), projects.motions(2, seconds=8.0)))
 print(json.dumps([sorted(compiled() - before), sorted(before)]))
 """
 
