@@ -350,7 +350,7 @@ def test_confirmed_distances_stay_until_other_ones_are_written(tmp_path):
     path = make(tmp_path, **BARE, project=CONFIRMED)
     said = cell_address(
         "<Project/Drawing distances confirmed by>, <Project/Drawing distances confirmed on>,"
-        " <Project/Drawing distances covered>: 'Drawing distances confirmed by RG, 2025-11-18' is"
+        " <Project/Drawing distances covered>: 'Drawing distances confirmed by RG, 2025-11-18'"
         " was cleared: distances from the drawing have changed; confirm them again"
     )
     assert said in fill(tmp_path).splitlines()

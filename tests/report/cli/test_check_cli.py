@@ -138,7 +138,7 @@ def test_report_as_json_has_arrays_causes_and_files(steep):
 SI = LENGTHS | WEIGHTS | PRESSURES
 NUMBER = re.compile(
     r"(?:at least|at most|≥|≤|=|enter|the friction coefficient,) (?:period T1, )?"
-    r"(?P<value>[\d,]*\d(?:\.\d+)?)(?:° \((?P<percent>[\d.]+) %\))? ?(?P<unit>[a-zA-Z]\w*)?"
+    r"(?P<value>[\d,]*\d(?:\.\d+)?)(?:° \((?P<percent>[\d.]+)%\))? ?(?P<unit>[a-zA-Z]\w*)?"
 )
 BLANK = re.compile(r"leave (?:it|this|one of them) blank")
 

@@ -173,7 +173,8 @@ CONTRADICTIONS = [
     ({"Site/Risk category": "IV", "Site/Importance factor I_e": 1.25},
      "Site/Importance factor I_e is 1.25; enter at least 1.5 for risk category IV"),
     ({"Site/S_DS": None}, "Site/S_DS is missing; enter S_DS, S_MS, or both S_S and F_a"),
-    ({"Site/Rule set": None, "Site/S_DS": None, "Site/Seismic design category": None},
+    ({"Site/Rule set": None, "Site/S_DS": None, "Site/S_1": None,
+      "Site/Seismic design category": None},
      "Site/Rule set is missing; choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22",
      "Site/S_DS is missing; enter S_DS",
      "Site/Seismic design category is missing; choose A, B, C, D, E or F, or enter S_1 and S_D1"),
@@ -203,7 +204,7 @@ CONTRADICTIONS = [
      "Motions/M1/Low-pass corner is 20 Hz; enter more than the high-pass corner, 20 Hz"),
     ({"Motions/M2/Recorded at": "ground"},
      "Building/Period T1 is missing; enter it, or a structure type, because a ground motion is"
-     " ground"),
+     " listed"),
     ({"Building/Period T1": 0.2, "Building/Period T2": 0.3},
      "Building/Period T2 is 0.3 s; enter at most period T1, 0.2 s, or leave it blank"),
     ({"Building/Period T1": 0.2, "Motions/M2/Recorded at": "ground", "Site/Number of stories": 101},
@@ -337,7 +338,7 @@ TYPED = [
      "Options/1/Provision is 'qualifying parapet height over roof'; did you mean"
      " 'Qualifying parapet height above the roof'?"),
     ({"Site/Rule set": "ASCE 7-16", "Options/1/Value": 20, "Options/1/Provision": LOW_SDC},
-     f"Options/1/Provision is '{LOW_SDC}', which ASCE 7-16 does not have; delete the row"),
+     f"Options/1/Provision is '{LOW_SDC}', which is not in ASCE 7-16; delete the row"),
 ]  # fmt: skip
 
 
