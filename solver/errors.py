@@ -10,6 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import islice
 
+from solver.spaces import spaced
+
 # Number of problems of one file or column that a message lists, and that it counts of the others.
 _MAX_LISTED, _MAX_COUNTED = 10, 10_000
 
@@ -39,7 +41,8 @@ class Problem:
         return f"{self.found}; {self.remedy}" if self.remedy else self.found
 
     def __str__(self) -> str:
-        return f"{self.where}: {self.text}" if self.where else self.text
+        # For a terminal, a log or a program: none is set in lines.
+        return spaced(f"{self.where}: {self.text}" if self.where else self.text)
 
 
 class InputError(ValueError):

@@ -12,6 +12,7 @@ from typing import Any
 import click
 
 from report.text.command_line import as_typed, command
+from solver.spaces import spaced
 
 # Exit codes; 0 is done, whatever the verdict.
 INTERNAL_ERROR = 1
@@ -64,8 +65,8 @@ _UNSAFE = re.compile(r"[\x00-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069
 
 
 def plain(text: object) -> str:
-    """Return a text as a terminal may show it: without control characters, and not too long."""
-    line = _UNSAFE.sub("?", str(text))
+    """Return a text as a terminal may show it: with spaces, no control characters, not too long."""
+    line = _UNSAFE.sub("?", spaced(str(text)))
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]}..."
 
 

@@ -30,6 +30,7 @@ from report.text.command_line import called
 from report.text.counts import numbered
 from solver.errors import InputError
 from solver.rules.ac156 import Tail
+from solver.spaces import spaced
 
 
 def generate_suite(
@@ -66,7 +67,7 @@ def generate_suite(
         else:
             publish(files, folder)
     for line in (*taken, *suite_table(motions, targets), *seeds.notes):
-        click.echo(line)
+        click.echo(spaced(line))
     click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
     if sheet:
         earlier_ids = {row.get("id") for row in sheet.inputs["motions"]}

@@ -22,6 +22,7 @@ from solver.model import STANDARD_GRAVITY_MPS2
 from solver.records.record import Record, has_gravity
 from solver.sliding.checked import scene
 from solver.sliding.model_selection import solve
+from solver.spaces import spaced
 
 
 def slide_block(
@@ -67,7 +68,7 @@ def slide_block(
         **asdict(solution.result),
         "outcome": solution.result.status.sentence,
         "model": f"{int(solution.model)}, {solution.model.title}",
-        "reason": solution.reason,
+        "reason": spaced(solution.reason),
         "next_model": f"{int(solution.next_model)}, {solution.next_model.title}",
         "next_effect_m": solution.next_effect_m,
         "error_m": solution.result.error_m,

@@ -17,6 +17,7 @@ from solver.errors import InputError
 from solver.file_writing import write_whole
 from solver.formats import MotionFile, read_motion_file
 from solver.records.record import record_csv
+from solver.spaces import spaced
 
 # Rounding error allowed in a converted record, relative to its peak.
 _TOLERANCE = 1e-9
@@ -32,7 +33,7 @@ def print_channels(file: Path, *, channel: str, as_json: bool, **reading: Any) -
         document = {
             "file": str(file),
             "format": motion_file.format,
-            "notes": list(motion_file.notes),
+            "notes": [*map(spaced, motion_file.notes)],
             "channels": channels,
         }
         click.echo(json.dumps(document))
@@ -41,7 +42,7 @@ def print_channels(file: Path, *, channel: str, as_json: bool, **reading: Any) -
     for line in table(channels):
         click.echo(line)
     for note in motion_file.notes:
-        click.echo(f"note: {note}")
+        click.echo(spaced(f"note: {note}"))
 
 
 def convert_record(file: Path, out: Path, *, channel: str, factor: float, **reading: Any) -> None:
@@ -54,7 +55,7 @@ def convert_record(file: Path, out: Path, *, channel: str, factor: float, **read
         scaled = replace(record, a_mps2=factor * record.a_mps2)
         write_whole(out, record_csv(scaled, within=_TOLERANCE).encode())
     for note in motion_file.notes:
-        click.echo(f"note: {note}")
+        click.echo(spaced(f"note: {note}"))
     click.echo(out)
 
 

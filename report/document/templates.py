@@ -23,7 +23,7 @@ from report.text.error_text import below_mm, general, percent, scientific, secon
 from report.text.formula_text import lettered
 from report.text.letter_case import capitalized, lowered
 from report.text.names import joined, named, ranged, shortened
-from report.text.units import NO_BREAK, digits_down, digits_up, kept, number, ratio, ratio_up
+from report.text.units import digits_down, digits_up, number, ratio, ratio_up
 from report.typeset.equations import data_uri, formula, symbol
 
 if TYPE_CHECKING:
@@ -46,10 +46,9 @@ def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
 
 
 def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
-    """Return what a macro of a template says, as plain text: for tables and the screen."""
+    """Return what a macro of a template says, as text without tags: for tables and the screen."""
     module = _environment(folder).get_template(path).make_module(dict(context))
-    plain = Markup(getattr(module, name)()).unescape()
-    return plain.replace(NO_BREAK, " ").strip()
+    return Markup(getattr(module, name)()).unescape().strip()
 
 
 @cache
@@ -62,7 +61,6 @@ def _environment(folder: Path) -> Environment:
         bytecode_cache=_kept(folder / "__pycache__"),
         # A name that is missing is an error: an empty place would go unseen under a seal.
         undefined=StrictUndefined,
-        finalize=_finished,
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -72,13 +70,6 @@ def _environment(folder: Path) -> Environment:
     environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
     environment.globals["headed"] = headed
     return environment
-
-
-def _finished(value: Any) -> Any:
-    """Return what is printed of a value: a text with its quantities whole."""
-    # Pages format their own so. The words of a check, of the solver and of a workbook are made
-    # once for every output, also those in which a space is a space.
-    return kept(value) if type(value) is str else value
 
 
 def _kept(folder: Path) -> BytecodeCache:

@@ -16,7 +16,7 @@ from report.drawing.sheet import LINE_IN, PAD_IN, PlanSheet, text_size
 from report.project.model.choices import ObjectKind
 from report.project.model.roof import RoofObject
 from report.project.model.shapes import Point, Rectangle
-from report.text.units import Quantity, no_less, number, pair
+from report.text.units import Quantity, no_less, number, pair, with_unit
 
 ARROW_IN, SCREEN_ARROW_IN = 0.3, 0.2
 _BASE_IN = 0.0625  # from the middle of a line along an edge to its baseline
@@ -141,7 +141,8 @@ def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]
     if math.isnan(array.permitted_m):
         moves = [f"Δ {NOT_PERMITTED}" if array.has_unpermitted_value else "no value"]
     if plan.size.is_full:
-        size = f"{size_words(array.array.shape, fmt)} {fmt.units(Quantity.PLAN)[0].symbol}"
+        unit = fmt.units(Quantity.PLAN)[0]
+        size = with_unit(size_words(array.array.shape, fmt), unit.symbol)
         slope = f"slope {number(math.degrees(array.array.slope_rad), 2)}°"
         yield from ([*name, words, size, slope] for words in moves)
         yield from ([*name, words, size] for words in moves)

@@ -207,7 +207,7 @@ def _add_dimension(space: Modelspace, dimension: PlanDimension) -> None:
         p1=dimension.ends[0],
         p2=dimension.ends[1],
         angle=math.degrees(math.atan2(y1 - y0, x1 - x0)),
-        text=dimension.words or " ",  # a space is none
+        text=_plain(dimension.words) or " ",  # a space is none
         text_rotation=90.0 if dimension.is_upright else None,
         dimstyle=_STYLE,
         dxfattribs={"layer": dimension.layer.title},

@@ -19,7 +19,7 @@ from report.project.model.shapes import Shape, around
 from report.text.grouping import ids_by
 from report.text.names import ranged
 from report.text.unit_format import UnitFormat
-from report.text.units import Quantity, measured, no_less, number
+from report.text.units import NO_BREAK, Quantity, measured, no_less, number
 
 ROW_IN = 0.175  # of a table of the package
 _IDS_IN, _FROM_IN, _TO_IN = 0.48, 0.22, 0.48  # width of words in columns of the tables
@@ -42,7 +42,7 @@ def alike_arrays(assessment: Assessment, fmt: UnitFormat) -> Sequence[AlikeArray
 
     def key(array: ArrayAssessment) -> tuple[str, str, str, str]:
         design = fmt.first(array.permitted_m, mark=array.overridden.design, show=no_less)
-        keep = keep_clear(keep_clear_m(assessment, array), fmt.us_first).partition(" ")[0]
+        keep = keep_clear(keep_clear_m(assessment, array), fmt.us_first).partition(NO_BREAK)[0]
         keep += keep_clear_mark(assessment, array)
         slope = f"{number(math.degrees(array.array.slope_rad), 2)}°"
         return size_words(array.array.shape, fmt), slope, design, keep

@@ -19,7 +19,7 @@ from report.project.check.motion_faults import LABELS
 from report.project.model import ProjectInput
 from report.project.model.choices import Polarity, RecordedAt, Scaling
 from report.project.model.motion_input import BuildingInput, MotionInput, SpectrumPoint
-from report.text.units import G_MPS2
+from report.text.units import G_MPS2, NO_BREAK
 from solver.building.roof import RoofMotion, shaking_to_roof
 from solver.building.structure import Building, building_of_periods
 from solver.model import Floats, Motion
@@ -269,8 +269,8 @@ def _scale(data: ProjectInput, row: MotionInput, records: Mapping[str, Record]) 
 def _scaling_words(data: ProjectInput, row: MotionInput) -> str:
     match row.scaling:
         case Scaling.PPA:
-            return f"PPA {row.scale_value:g} g"
+            return f"PPA {row.scale_value:g}{NO_BREAK}g"
         case Scaling.TARGET:
             asked = data.target
-            return f"target, {asked.from_s:g} to {asked.to_s:g} s"
+            return f"target, {asked.from_s:g} to {asked.to_s:g}{NO_BREAK}s"
     return row.scaling.value

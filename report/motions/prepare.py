@@ -18,7 +18,7 @@ from report.project.model import ProjectInput
 from report.project.model.finding import Finding
 from report.project.model.input_rows import Place
 from report.project.read.workbook_data import Sheet
-from report.text.units import G_MPS2, Quantity
+from report.text.units import G_MPS2, Quantity, with_unit
 from solver.model import Motion
 
 # Of all files, each counted for every motion that names it: what is read within 10 s.
@@ -124,5 +124,7 @@ def stiff_links(data: ProjectInput, motions: Sequence[Motion]) -> Iterator[Findi
 
 
 def _stiffness_text(stiffness: float) -> str:
-    us, si = (f"{stiffness / unit.si:.2g} {unit.symbol}" for unit in Quantity.STIFFNESS.value)
+    us, si = (
+        with_unit(f"{stiffness / unit.si:.2g}", unit.symbol) for unit in Quantity.STIFFNESS.value
+    )
     return f"{us} ({si})"

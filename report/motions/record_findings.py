@@ -16,7 +16,7 @@ from report.project.check.motion_faults import FIELDS
 from report.project.model import ProjectInput
 from report.project.model.finding import Finding, note, warning
 from report.project.model.input_rows import Place
-from report.text.units import G_MPS2
+from report.text.units import G_MPS2, NO_BREAK
 from solver.model import Motion
 
 # Peak of a motion / that of the others, and the inverse, beyond which their units differ: the peaks
@@ -69,8 +69,8 @@ def _unlike_peaks(motions: Sequence[Motion]) -> Iterator[Finding]:
             continue
         times, unit = (f"{ratio:.0f}", "cm/s2") if ratio > 1.0 else (f"1/{1.0 / ratio:.0f}", "g")
         text = (
-            f"peak {peak_g:.3g} g as run, {times} times the other motions: is the record in {unit}?"
-            " Correct its units or its scale factor"
+            f"peak {peak_g:.3g}{NO_BREAK}g as run, {times} times the other motions: is the record "
+            f"in {unit}? Correct its units or its scale factor"
         )
         yield warning(f"peak {motions[index].id}", Place("motions", index, "units"), text)
 
@@ -79,9 +79,9 @@ def _step(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
     longest = max(files, key=lambda file: file.dt_s)
     if longest.dt_s > MOST_STEP_S * (1.0 + 1e-9):
         text = (
-            f"{longest.name} has a time step of {longest.dt_s:g} s, and so no content above"
-            f" {0.5 / longest.dt_s:.3g} Hz; {MOST_STEP_S:g} s or less is typical: correct the time"
-            " step, or use another record"
+            f"{longest.name} has a time step of {longest.dt_s:g}{NO_BREAK}s, and so no content"
+            f" above {0.5 / longest.dt_s:.3g}{NO_BREAK}Hz; {MOST_STEP_S:g}{NO_BREAK}s or less is"
+            " typical: correct the time step, or use another record"
         )
         yield warning(f"step {longest.motion_id}", _place(index, longest), text)
 
@@ -90,8 +90,9 @@ def _duration(index: int, files: Sequence[RecordFile]) -> Iterator[Finding]:
     longest = max(files, key=_seconds)
     if _seconds(longest) > MOST_DURATION_S:
         text = (
-            f"{longest.name} lasts {_seconds(longest):.0f} s at a time step of {longest.dt_s:g} s;"
-            f" {MOST_DURATION_S:.0f} s or less is typical: correct the time step, or trim it"
+            f"{longest.name} lasts {_seconds(longest):.0f}{NO_BREAK}s at a time step of"
+            f" {longest.dt_s:g}{NO_BREAK}s; {MOST_DURATION_S:.0f}{NO_BREAK}s or less is typical:"
+            " correct the time step, or trim it"
         )
         yield warning(f"duration {longest.motion_id}", _place(index, longest), text)
 
@@ -113,9 +114,9 @@ def _spikes(index: int, file: RecordFile) -> Iterator[Finding]:
     first, further = file.spikes[0], len(file.spikes) - 1
     which = f"sample {first + 1:,}" + (f" and {further} more" if further else "")
     text = (
-        f"{file.name}: {which}, at {first * file.dt_s:.6g} s, {'reach' if further else 'is'}"
-        f" {file.peak_g:.4g} g, and no other is more than {file.others_g:.4g} g; correct the file,"
-        " or use another record"
+        f"{file.name}: {which}, at {first * file.dt_s:.6g}{NO_BREAK}s,"
+        f" {'reach' if further else 'is'} {file.peak_g:.4g}{NO_BREAK}g, and no other is more than"
+        f" {file.others_g:.4g}{NO_BREAK}g; correct the file, or use another record"
     )
     yield warning(f"spike {file.motion_id} {file.component}", _place(index, file), text)
 

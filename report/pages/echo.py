@@ -14,6 +14,7 @@ from report.document.columns import words
 from report.document.tables import Column, Table, listed
 from report.pages.parts import BAR, PackageData
 from report.project.read.workbook_data import IGNORED, EchoRow
+from report.text.units import with_unit
 
 # Width of a table of the workbook, in letters: wide enough that a column holds its numbers.
 WIDEST = 112.0
@@ -180,7 +181,7 @@ def _as_entered(row: EchoRow, unit: str) -> str:
     """Return what was entered; for a blank cell its default."""
     if _is_blank(row):
         return "" if row.value == "—" else row.value
-    text = f"{row.typed} {unit}".rstrip()
+    text = with_unit(row.typed, unit)
     # A formula, and what nothing reads, print with what became of them.
     if row.typed.startswith("=") or row.value == IGNORED:
         text = f"{text}: {row.value}"

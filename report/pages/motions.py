@@ -23,7 +23,7 @@ from report.pages.symbols import with_symbols
 from report.text.grouping import grouped_by
 from report.text.letter_case import lowered
 from report.text.unit_format import UnitFormat
-from report.text.units import G_MPS2, NO_BREAK, Unit, digits_up, number
+from report.text.units import G_MPS2, NO_BREAK, Unit, digits_up, number, with_unit
 from report.typeset.equations import symbol
 from solver.model import Floats, Motion
 from solver.records.acceptance import N_AC156, N_SETS, N_SLIDING, POINTS_HZ
@@ -184,7 +184,7 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Ma
         # Compared as printed: what reads the same in every row is in a note.
         texts = {str(text_of(row)) for row in rows}
         if len(texts) == 1:
-            alike[head.head] = f"{texts.pop()} {head.unit}".rstrip()
+            alike[head.head] = with_unit(texts.pop(), head.unit)
     columns = (
         (words("Motion", 0.9), lambda row: row[0].id),
         *([source] if has_sources else []),
@@ -248,8 +248,8 @@ def _ends(preparations: Sequence[PreparedMotion], fmt: UnitFormat) -> tuple[str,
     speed_mps = max(abs(m.final_velocity_mps) for m in measures)
     end_m = max(abs(m.final_displacement_m) for m in measures)
     return (
-        f"{number(speed_mps / unit.si, 2)} {unit.symbol}/s",
-        f"{number(end_m / unit.si, 2)} {unit.symbol}",
+        with_unit(number(speed_mps / unit.si, 2), f"{unit.symbol}/s"),
+        with_unit(number(end_m / unit.si, 2), unit.symbol),
     )
 
 

@@ -23,7 +23,7 @@ from report.project.model.choices import PackageEdition, RecordedAt
 from report.project.model.friction_report import FrictionTests
 from report.provenance.package_sources import fingerprint
 from report.text.unit_format import UnitFormat
-from report.text.units import NO_BREAK, no_less, no_more
+from report.text.units import no_less, no_more
 from solver.rules.provisions import Basis
 from solver.rules.rulesets import ALLOWED
 
@@ -61,7 +61,7 @@ class PackageData:
     @property
     def fmt(self) -> UnitFormat:
         """Format of values."""
-        return UnitFormat(us_first=self.data.us_first, space=NO_BREAK)
+        return UnitFormat(us_first=self.data.us_first)
 
     @property
     def marks(self) -> Marks:

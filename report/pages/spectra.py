@@ -14,7 +14,7 @@ from report.document.columns import text, words
 from report.document.tables import Table, Wide, by_place, listed
 from report.pages.parts import PackageData
 from report.text.counts import numbered
-from report.text.units import number
+from report.text.units import NO_BREAK, number
 from solver.model import Floats
 
 
@@ -25,7 +25,9 @@ def page(_: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 def spectrum_table(spectra: Sequence[Spectra]) -> Table:
     """Return target, achieved ordinates and their ratios at a few periods, by component."""
-    periods = (text(f"{period:g} s", f"{1 / period:.3g} Hz") for period in PRINTED_S)
+    periods = (
+        text(f"{period:g}{NO_BREAK}s", f"{1 / period:.3g}{NO_BREAK}Hz") for period in PRINTED_S
+    )
     rows = (row for part in spectra for row in _spectrum_rows(part))
     columns = by_place(words("Period", 2.9), *periods)
     return listed(rows, columns, kind="compact", style=itemgetter(-1))

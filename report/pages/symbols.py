@@ -11,13 +11,13 @@ from markupsafe import Markup, escape
 from report.assessment.design.tested_friction import STANDARD
 from report.document.tables import headed
 from report.pages.parts import PackageData
-from report.text.units import kept
+from report.text.units import NO_BREAK
 from report.typeset.equations import symbol
 from solver.rules.hazard import EDITIONS
 
 SYMBOLS: Mapping[str, str] = {
-    "A_FLX": "AC156 acceleration from 1.3 to 8.3 Hz",
-    "A_RIG": "AC156 acceleration from 33.3 Hz",
+    "A_FLX": f"AC156 acceleration from 1.3 to 8.3{NO_BREAK}Hz",
+    "A_RIG": f"AC156 acceleration from 33.3{NO_BREAK}Hz",
     "a_h": "horizontal roof acceleration along the slope",
     "a_y": "cross-slope horizontal roof acceleration",
     "a_v": "vertical roof acceleration, positive up",
@@ -32,7 +32,7 @@ SYMBOLS: Mapping[str, str] = {
     "c_2": "minimum interconnection strength / W_1",
     "F": "required strength of the interconnection",
     "F_a": "site coefficient, short period",
-    "F_v": "site coefficient at 1 s",
+    "F_v": f"site coefficient at 1{NO_BREAK}s",
     "F_p": "seismic design force of a component",
     "G": "driving force along the slope",
     "g": "acceleration of gravity",
@@ -53,12 +53,12 @@ SYMBOLS: Mapping[str, str] = {
     "R_po": "component strength factor",
     "R_μ": "reduction of the component force by the building's ductility",
     "r": "rate of the friction coefficient with velocity",
-    "S_1": "mapped spectral acceleration at 1 s",
+    "S_1": f"mapped spectral acceleration at 1{NO_BREAK}s",
     "S_S": "mapped spectral acceleration, short period",
     "S_MS": "MCE spectral acceleration, short period",
-    "S_M1": "MCE spectral acceleration at 1 s",
+    "S_M1": f"MCE spectral acceleration at 1{NO_BREAK}s",
     "S_DS": "design spectral acceleration, short period",
-    "S_D1": "design spectral acceleration at 1 s",
+    "S_D1": f"design spectral acceleration at 1{NO_BREAK}s",
     "S_a": "design spectral acceleration",
     "s": "sliding displacement, positive downslope",
     "s_req": "required separation",
@@ -70,7 +70,7 @@ SYMBOLS: Mapping[str, str] = {
     "T_S": "end of the plateau of the design spectrum",
     "u": "horizontal displacement relative to the roof",
     "V": "shear between array and roof",
-    "V_s30": "shear-wave velocity of the upper 30 m at a recording station",
+    "V_s30": f"shear-wave velocity of the upper 30{NO_BREAK}m at a recording station",
     "v": "sliding velocity",
     "W": "weight of the array with ballast",
     "W_1": "weight on the lighter side of a section",
@@ -99,7 +99,7 @@ _NAME = re.compile(rf"\b(?:{'|'.join(name for name in SYMBOLS if '_' in name)})\
 
 def with_symbols(text: str) -> Markup:
     """Return a text with its symbols typeset, such as `S_DS`; the rest is escaped."""
-    plain = str(escape(kept(text)))
+    plain = str(escape(text))
     return Markup(_NAME.sub(lambda match: str(symbol(match[0])), plain))
 
 

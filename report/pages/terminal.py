@@ -26,6 +26,7 @@ from report.pages.marks import Marks
 from report.text.aligned import aligned
 from report.text.json_numbers import finite
 from report.text.unit_format import UnitFormat
+from report.text.units import spaced
 
 if TYPE_CHECKING:
     from report.assessment.assessment import Assessment
@@ -58,7 +59,9 @@ def document(assessment: Assessment) -> dict[str, Any]:
     return {
         "verdict": assessment.verdict.value,
         "arrays": [_array(assessment, item) for item in assessment.arrays],
-        "attention": [{"level": level, "text": text} for level, text in attention(assessment)],
+        "attention": [
+            {"level": level, "text": spaced(text)} for level, text in attention(assessment)
+        ],
     }
 
 
@@ -75,7 +78,7 @@ def _array(assessment: Assessment, item: ArrayAssessment) -> dict[str, Any]:
         "demand_capacity": finite(gap.demand_capacity) if gap else None,
         "required_is_overridden": bool(gap and gap.mark),
         "verdict": assessment.array_verdict(item).value,
-        "causes": causes(assessment, item),
+        "causes": [*map(spaced, causes(assessment, item))],
     }
 
 

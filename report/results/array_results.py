@@ -5,7 +5,7 @@ from __future__ import annotations
 from report.assessment.design.arrays import DesignBasis
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import ItemVerdict
-from report.results.result_base import Number, ResultModel
+from report.results.result_base import Number, ResultModel, Words
 from solver.model import Friction, Status
 from solver.rules.provisions import Basis, PrescriptiveBasis
 
@@ -137,7 +137,7 @@ class RunResult(ResultModel):
     """Number of the model used, from 0, no slip, to 5, a row of linked blocks."""
     model: str
     """Model used, in words."""
-    reason: str
+    reason: Words
     """Why this model is enough."""
     next_rung: int
     """Number of the next model, run to see its effect; that of this one if none is."""
@@ -157,7 +157,7 @@ class _ArrayHead(ResultModel):
     """Friction coefficient at low velocity."""
     friction: Friction
     """Friction law as entered."""
-    friction_as_run: str
+    friction_as_run: Words
     """Friction coefficient in words, as printed."""
 
 

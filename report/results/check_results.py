@@ -6,7 +6,7 @@ from report.assessment.checks.check import Actor
 from report.assessment.design.verdict import ItemVerdict, Verdict
 from report.assessment.remedies.remedy import RemedyKind
 from report.project.model.finding import Level
-from report.results.result_base import Number, ResultModel
+from report.results.result_base import Number, ResultModel, Words
 from solver.rules.limit import Consequence
 
 
@@ -19,7 +19,7 @@ class FindingResult(ResultModel):
     """Name by which a warning is acknowledged; empty where none can be."""
     cell: str
     """Cell of the workbook."""
-    text: str
+    text: Words
     """What was found."""
     reason: str
     """Why a warning is acknowledged; empty if it is not."""
@@ -30,7 +30,7 @@ class CheckResult(ResultModel):
 
     id: str
     """Kind of check, such as `max_stories`, `clearance` or `peer_review`."""
-    title: str
+    title: Words
     """As printed."""
     subject: str
     """Array, motion or clearance, as printed; empty for the project."""
@@ -42,13 +42,13 @@ class CheckResult(ResultModel):
     """Value required, in the unit; null where it is words."""
     unit: str
     """Unit of both; empty for a count or a ratio."""
-    found_text: str
+    found_text: Words
     """As printed, in both systems of units."""
-    limit_text: str
+    limit_text: Words
     """As printed, with its sign."""
-    note: str
+    note: Words
     """Where or from what it was found."""
-    clause: str
+    clause: Words
     """Section of the code with its mark, or whose practice it is."""
     is_satisfied: bool
     """Whether the project satisfies it."""
@@ -60,9 +60,9 @@ class CheckResult(ResultModel):
     """Demand / capacity; null for words, and where a required number is not entered."""
     actor: Actor
     """Who must act where it is not satisfied."""
-    remedy: str
+    remedy: Words
     """What they must do, as a sentence; empty where it is satisfied."""
-    otherwise: str
+    otherwise: Words
     """What the project comes to if it is not met, as a sentence."""
     cells: tuple[str, ...]
     """Cells of the workbook."""
@@ -73,11 +73,11 @@ class RemedyResult(ResultModel):
 
     quantities: tuple[RemedyKind, ...]
     """What would have to change."""
-    checks: tuple[str, ...]
+    checks: tuple[Words, ...]
     """What it satisfies, as printed."""
-    change: str
+    change: Words
     """In words."""
     verdict: Verdict
     """On the project with it."""
-    governing: str
+    governing: Words
     """The same with the checks that then govern, in words."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, PlainSerializer, WithJsonSchema
+
+from solver.spaces import spaced
 
 Number = Annotated[
     float,
@@ -13,6 +15,9 @@ Number = Annotated[
     WithJsonSchema({"type": ["number", "null"]}),
 ]
 """A number; NaN is none, which is null in JSON."""
+
+Words = Annotated[str, PlainSerializer(spaced)]
+"""A text that the program composes, unlike names and notes of the workbook."""
 
 
 class ResultModel(BaseModel):

@@ -11,7 +11,7 @@ from report.project.model import ProjectInput
 from report.results.array_results import ArrayResult, LinkedResult
 from report.results.check_results import CheckResult, FindingResult, RemedyResult
 from report.results.clearance_results import ClearanceResult, LowVelocity, NeighborResult
-from report.results.result_base import PrintedResult, ResultModel
+from report.results.result_base import PrintedResult, ResultModel, Words
 from report.results.source_results import DocumentResult, MotionResult, RecordResult, WorkbookResult
 from report.results.uncertainty_results import CumulativeResult, UncertaintyResult, VariationResult
 
@@ -46,7 +46,7 @@ class Results(ResultModel):
     """How numbers are printed."""
     verdict: Verdict
     """Verdict on the project."""
-    warnings: tuple[str, ...]
+    warnings: tuple[Words, ...]
     """Warnings of the runs, as sentences."""
     findings: tuple[FindingResult, ...]
     """Warnings and notes on the input."""

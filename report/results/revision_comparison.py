@@ -25,9 +25,9 @@ from report.results.clearance_results import ClearanceResult
 from report.results.result_base import ResultModel
 from report.results.results_json import GIVE
 from report.results.results_model import Compared
-from report.results.rows import compared
+from report.results.rows import check_results, compared
 from report.text.unit_format import UnitFormat
-from report.text.units import in_us_order, no_less, ratio
+from report.text.units import no_less, ratio, spaced, with_unit
 from solver.errors import InputError
 
 # Most changes that the package lists, and most letters of them all.
@@ -63,7 +63,7 @@ def changes(earlier: Compared, assessment: Assessment) -> Changes:
     items = [
         *_given(earlier, current, assessment),
         *_one(ChangeKind.SOFTWARE, "Roofslip", earlier.roofslip_version, current.roofslip_version),
-        *_checks(earlier, current),
+        *_checks(earlier, assessment),
         *_one(ChangeKind.VERDICT, "Project", earlier.verdict, current.verdict),
         *_results((*arrays, *gaps), UnitFormat(us_first=assessment.project.us_first)),
     ]
@@ -93,12 +93,18 @@ def changes(earlier: Compared, assessment: Assessment) -> Changes:
 _LISTED = ("clearance", "design")
 
 
-def _checks(earlier: Compared, current: Compared) -> Iterator[Change]:
+def _checks(earlier: Compared, assessment: Assessment) -> Iterator[Change]:
     # Version 0.3 wrote none.
     if "checks" not in earlier.model_fields_set:
         return
+    # In its units: with others first a text says the same in another order.
+    head = assessment.project.project.model_copy(
+        update={"units_first": earlier.input.project.units_first}
+    )
+    project = assessment.project.model_copy(update={"project": head})
+    current = check_results(replace(assessment, project=project))
     before, after = (
-        [row for row in revision.checks if row.id not in _LISTED] for revision in (earlier, current)
+        [row for row in rows if row.id not in _LISTED] for rows in (earlier.checks, current)
     )
     text = "{row.found_text}: {row.verdict}"
     yield from _rows(ChangeKind.REQUIREMENT, before, after, "{row.subject}, {row.title}", text)
@@ -247,8 +253,8 @@ def _shown(entry: Entry, value: Any, us_first: bool) -> str:
     if isinstance(value, (int, float)):
         if entry.quantity:
             unit = UnitFormat(us_first).units(entry.quantity)[0]
-            return f"{value / unit.si:.8g} {unit.symbol}"
-        return f"{value:.8g} {entry.unit}".rstrip()
+            return with_unit(f"{value / unit.si:.8g}", unit.symbol)
+        return with_unit(f"{value:.8g}", str(entry.unit))
     return str(value)
 
 
@@ -256,11 +262,11 @@ def _rows(
     kind: ChangeKind, before: Iterable[_Row], current: Iterable[_Row], title: str, text: str
 ) -> Iterator[Change]:
     """Yield the rows whose text changed, by title; both are of a `row` in braces."""
-    pairs = _paired(before, current, lambda row: (in_us_order(title.format(row=row)),))
+    # Those of the former revision are read from a file, with ordinary spaces.
+    pairs = _paired(before, current, lambda row: (spaced(title.format(row=row)),))
     for (name, _), pair in pairs.items():
         first, second = (text.format(row=row) if row else NOT_THERE for row in pair)
-        # With other primary units a text says the same in another order.
-        if in_us_order(first) != in_us_order(second):
+        if spaced(first) != spaced(second):
             yield from _one(kind, name.removeprefix(", "), first, second)
 
 
@@ -363,8 +369,8 @@ def _as_texts(
     # Results that differ by more than rounding may still print alike.
     if texts[0] != texts[1]:
         return texts
-    unit = " m" if key.endswith("_m") else ""
-    return [f"{value:.7g}{unit}" for value in values]
+    unit = "m" if key.endswith("_m") else ""
+    return [with_unit(f"{value:.7g}", unit) for value in values]
 
 
 def _text(key: str, value: float | str, fmt: UnitFormat) -> str:

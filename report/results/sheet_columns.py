@@ -16,7 +16,7 @@ from xlsxwriter.worksheet import Worksheet
 
 from report.results.sheet_pages import TOP, Pages, lay_out
 from report.text.unit_format import NO_VALUE
-from report.text.units import NEWTONS_PER_POUND, NOISE, Rounding
+from report.text.units import NEWTONS_PER_POUND, NOISE, Rounding, spaced
 from solver.model import INCH_M
 
 # What a value in SI is in the units of a sheet; a value in another unit stays as it is.
@@ -128,7 +128,7 @@ class SheetLayout:
     def printed(self, item: Any, name: str) -> float | str:
         """Return what the first cell of a name holds of an item."""
         column = next(column for column in self.columns if column.name == name)
-        value: float | str = _finite(column.held(item))
+        value: float | str = written(column.held(item))
         return value
 
 
@@ -209,7 +209,7 @@ def _write(
     column: SheetColumn,
     formula: str,
 ) -> None:
-    value = _finite(column.held(row.item))
+    value = written(column.held(row.item))
     is_input = column.is_input and not formula
     look = pages.number(column.decimals, row.marks.get(column.name, ""), is_input=is_input)
     if isinstance(value, str) and column.decimals is None:
@@ -260,20 +260,20 @@ def write_table(
     for place, (values, digits) in enumerate(zip(table.values(), decimals, strict=True)):
         is_text = any(isinstance(value, str) for value in values)
         look = pages.text if is_text else pages.number(digits)
-        sheet.write_column(1, place, map(_finite, values), look)
+        sheet.write_column(1, place, map(written, values), look)
 
 
 def _shown(value: Any, decimals: int | None) -> str:
     """Return what a cell shows."""
-    number = _finite(value)
+    number = written(value)
     if isinstance(number, float) and decimals is not None:
         return f"{number:.{decimals}f}"
     # As the format General shows it.
     return f"{number:.9g}" if isinstance(number, float) else str(number)
 
 
-def _finite(value: Any) -> Any:
-    """Return what a cell holds of a value: a text for a number that a workbook does not have."""
+def written(value: Any) -> Any:
+    """Return what a cell holds: ordinary spaces, a text for a number that a workbook has not."""
     if isinstance(value, float) and not math.isfinite(value):
         return NO_VALUE if math.isnan(value) else str(value)
-    return value
+    return spaced(value) if isinstance(value, str) else value

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from report.project.model.choices import RecordedAt
-from report.results.result_base import ResultModel
+from report.results.result_base import ResultModel, Words
 from solver.records.measures import Measures
 
 
@@ -25,7 +25,7 @@ class RecordResult(ResultModel):
     component: str
     name: str
     format: str
-    notes: tuple[str, ...]
+    notes: tuple[Words, ...]
     """What was read or assumed beyond the plain numbers."""
     sha256: str
     npts: int
@@ -52,7 +52,7 @@ class DocumentResult(ResultModel):
 class RoofResult(ResultModel):
     """A component of a ground motion, carried to the roof."""
 
-    words: str
+    words: Words
     """The building in words."""
     n_modes: int
     """Number of modes included."""
@@ -74,8 +74,8 @@ class MotionResult(ResultModel):
     id: str
     recorded_at: RecordedAt
     """Where it was recorded: at the roof, or at the ground."""
-    processing: str
-    scaling: str
+    processing: Words
+    scaling: Words
     scale: float
     """Factor on the record."""
     dt_s: float

@@ -19,7 +19,7 @@ from report.assessment.design.verdict import Verdict, worst
 from report.provenance.package_sources import fingerprint
 from report.results.clearances_sheet import GAPS, GapRow
 from report.results.design_sheet import DESIGN, DesignRow, any_of
-from report.results.sheet_columns import Cells
+from report.results.sheet_columns import Cells, written
 from report.results.sheet_pages import LINE_PT, TOP, Pages, lines_of
 from report.text.units import ratio
 
@@ -78,7 +78,7 @@ def _write_row(
 ) -> None:
     tall = 1
     for column, value in enumerate(values):
-        formula, text = value if isinstance(value, tuple) else ("", value)
+        formula, text = value if isinstance(value, tuple) else ("", written(value))
         look = pages.text
         if not isinstance(text, str):
             look = pages.lengths if heads[column].endswith("[in]") else pages.ratios

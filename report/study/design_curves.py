@@ -28,6 +28,7 @@ from report.study.study_results import STATISTICS, StudyResults
 from report.study.study_tables import length_unit
 from report.study.wording import level, on_building
 from report.text.letter_case import capitalized
+from report.text.units import NO_BREAK
 from solver.model import Floats
 
 
@@ -46,7 +47,7 @@ def curves(results: StudyResults, building: int) -> Section:
         id=f"curves-{building}",
         named={m: friction_name(results, study_input.mus[m]) for m in drawn_mus},
         sheets=[(name, is_thick) for name, _, is_thick in sheets],
-        left=f" Left, up to {LOW_G} g: on a logarithmic axis." if is_low else "",
+        left=f" Left, up to {LOW_G}{NO_BREAK}g: on a logarithmic axis." if is_low else "",
         place=results.plan.motions.buildings[building],
         middle=study_input.intensities[len(study_input.intensities) // 2],
         displacements=_displacements(results, building),

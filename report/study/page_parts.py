@@ -49,7 +49,7 @@ def friction_name(results: StudyResults, mu: float) -> str:
 
 def axis(results: StudyResults) -> str:
     """Return the name of the measure of intensity."""
-    return results.plan.input.study.intensity.value
+    return results.plan.input.study.intensity.heading
 
 
 def by_intensity(results: StudyResults, values: Floats, m: int, **options: Any) -> str:

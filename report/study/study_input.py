@@ -19,6 +19,7 @@ from pydantic import Field
 from report.project.model.choices import AccelUnit, Polarity, RecordedAt, RuleSetName, UnitsFirst
 from report.project.model.friction_report import FrictionTestRow
 from report.project.model.values import Frozen, Id, Positive, RequiredText, Text
+from report.text.units import NO_BREAK
 from solver.friction_tests import FrictionRun, Series, Surface, series
 from solver.studies.uncertainty import Spread, spread_of_tests
 
@@ -49,13 +50,18 @@ class Intensity(StrEnum):
 
     @property
     def letters(self) -> str:
-        """The measure without its unit."""
-        return self.value.partition(" [")[0]
+        """The measure without its unit, as pages have it."""
+        return f"Sa(1{NO_BREAK}s)" if self is Intensity.SA1 else self.value.partition(" [")[0]
 
     @property
     def unit(self) -> str:
         """Its unit."""
         return self.value.partition(" [")[2].rstrip("]")
+
+    @property
+    def heading(self) -> str:
+        """The measure with its unit, as pages have it."""
+        return f"{self.letters} [{self.unit}]"
 
 
 class NoValue(StrEnum):

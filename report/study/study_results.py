@@ -215,7 +215,7 @@ def _fit(plan: StudyPlan, analysis_m: Floats, ppa_g: float) -> Fit | str:
     try:
         return fit_prd(slopes.ravel(), mus.ravel(), levels.ravel(), analysis_m.ravel(), ppa_g=ppa_g)
     except InputError as error:
-        return error.problems[0]
+        return error.parts[0].text
 
 
 def _array(

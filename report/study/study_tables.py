@@ -23,7 +23,7 @@ from report.study.wording import sentence, taken_over
 from report.text.csv_text import csv_text
 from report.text.letter_case import capitalized
 from report.text.unit_format import UnitFormat
-from report.text.units import Unit
+from report.text.units import Unit, spaced
 from solver.model import Floats
 from solver.studies.curves import Fit
 
@@ -105,7 +105,8 @@ def study_xlsx(
             for column, value in enumerate(row):
                 # A cell of Excel holds neither NaN nor infinity.
                 is_none = isinstance(value, float) and not math.isfinite(value)
-                sheet.write(number, column, "none" if is_none else value)
+                text = spaced(value) if isinstance(value, str) else value
+                sheet.write(number, column, "none" if is_none else text)
         # Below the table as well as in the header, which is seen in print alone.
         if results.years:
             sheet.write(sheet.dim_rowmax + 2, 0, SUPPORTING)

@@ -18,7 +18,7 @@ from report.study.dispersions import NOT_DETERMINED, is_refused, is_warned
 from report.study.manifest import OWN_KEY, TRUST_PARTS
 from report.study.study_results import MEAN, SLOPE_DECIMALS, StudyResults
 from report.text.unit_format import UnitFormat
-from report.text.units import no_less
+from report.text.units import no_less, with_unit
 from report.typeset.pdf import TEMPLATES
 from solver.rules.provisions import SEPARATION_KEYS
 
@@ -63,7 +63,7 @@ def both(results: StudyResults, value_m: float) -> str:
 def level(results: StudyResults, value: float) -> str:
     """Return an intensity with its letters and unit."""
     measure = results.plan.input.study.intensity
-    return f"{measure.letters} = {value:g} {measure.unit}"
+    return with_unit(f"{measure.letters} = {value:g}", measure.unit)
 
 
 def on_building(results: StudyResults, building: int, before: str = " on ") -> str:

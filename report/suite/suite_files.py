@@ -31,6 +31,7 @@ from report.suite.suite_components import (
     suite_components,
 )
 from report.suite.targets import SuiteTargets
+from report.text.units import spaced
 from solver.errors import InputError
 from solver.model import Floats
 from solver.records.record import record_csv
@@ -94,7 +95,8 @@ def suite_files(
         for record in motion.components:
             files[f"{record.name}.csv"] = record_csv(record, hold_s=motion.hold_s).encode()
     document = _document(suite, targets, components, seed, records, files)
-    files["suite.json"] = json.dumps(document, indent=1, ensure_ascii=False).encode() + b"\n"
+    text = spaced(json.dumps(document, indent=1, ensure_ascii=False))
+    files["suite.json"] = text.encode() + b"\n"
     files["suite.png"] = spectra([_spectra(suite, targets, name) for name in "xyz"], png_bytes)
     return files
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from report.text.units import Quantity, Rounding, Show, Unit, pair
+from report.text.units import Quantity, Rounding, Show, Unit, pair, with_unit
 from solver.rules.limit import Limit, Measure, at_least
 
 # Decimals beyond those of a unit that are tried to show the order of two values.
@@ -143,16 +143,10 @@ def amount_texts(
     else:
         unit = quantity.us if us_first else quantity.si
         both = in_order(found, limit, unit.decimals, is_at_least=is_at_least, size=unit.si)
-        texts = [with_unit(text, unit) for text in both]
+        texts = [with_unit(text, unit.symbol) for text in both]
     return texts[0] + found.mark, texts[1] + limit.mark
 
 
 def amount_text(amount: Amount, us_first: bool, *, is_both: bool = True) -> str:
     """Return an amount with its units, which is compared with none."""
     return amount_texts(amount, amount, us_first, is_at_least=True, is_both=is_both)[0]
-
-
-def with_unit(text: str, unit: Unit) -> str:
-    """Return a number for print with the symbol of its unit."""
-    space = "" if unit.symbol in ("", "°") else " "
-    return f"{text}{space}{unit.symbol}"

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from report.text.units import number
+from report.text.units import NO_BREAK, number
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -27,7 +27,7 @@ def power_above(value: float) -> str:
 
 def below_mm(error_m: float) -> str:
     """Return the power of ten above an error, in mm."""
-    return f"{power_above(1e3 * error_m)} mm" if error_m else "rounding error"
+    return f"{power_above(1e3 * error_m)}{NO_BREAK}mm" if error_m else "rounding error"
 
 
 def scientific(value: float) -> str:
@@ -58,8 +58,8 @@ def seconds(value: float) -> str:
         return "—"
     for size, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
         if value >= size:
-            return f"{value / size:.3g} {unit}"
-    return f"{value / 1e-9:.3g} ns"
+            return f"{value / size:.3g}{NO_BREAK}{unit}"
+    return f"{value / 1e-9:.3g}{NO_BREAK}ns"
 
 
 def ten_digits(value: float) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from report.text.units import Quantity, Show, Unit, measured, no_less, pair
+from report.text.units import Quantity, Show, Unit, measured, no_less, pair, with_unit
 
 NO_VALUE = "none"
 _LENGTH = Quantity.DISPLACEMENT
@@ -19,8 +19,6 @@ class UnitFormat:
     none: str = NO_VALUE
     # In which a table has a quantity: a narrow one has the first alone.
     systems: int = 2
-    # Between a number and its unit; on a page no line breaks there.
-    space: str = " "
 
     def both(
         self, value_si: float, quantity: Quantity = _LENGTH, show: Show = measured, mark: str = ""
@@ -28,7 +26,7 @@ class UnitFormat:
         """Return `81.6 in (2072 mm)` with its mark; `none` for NaN, which rests on no provision."""
         if math.isnan(value_si):
             return self.none
-        return pair(value_si, quantity, self.us_first, show, self.space) + mark
+        return pair(value_si, quantity, self.us_first, show) + mark
 
     def both_up(self, value_si: float, mark: str = "") -> str:
         """Return a length that is required, or that a requirement follows from, rounded up."""
@@ -39,7 +37,7 @@ class UnitFormat:
     ) -> str:
         """Return a value with its unit in the preferred system; `none` for NaN."""
         unit = self.units(quantity)[0]
-        text = f"{show(value_si, unit)}{self.space}{unit.symbol}{mark}"
+        text = with_unit(show(value_si, unit), unit.symbol) + mark
         return self.none if math.isnan(value_si) else text
 
     def first(

@@ -6,12 +6,13 @@ Values are in SI everywhere else; values that a user reads or enters are convert
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
 from solver.model import INCH_M, STANDARD_GRAVITY_MPS2
+from solver.spaces import NO_BREAK as NO_BREAK
+from solver.spaces import spaced as spaced
 
 NEWTONS_PER_POUND = 4.4482216152605
 G_MPS2 = STANDARD_GRAVITY_MPS2
@@ -197,45 +198,19 @@ def round_down(value: float, decimals: int) -> float:
     return math.floor(value * per_digit + NOISE) / per_digit if math.isfinite(value) else value
 
 
-def pair(
-    value_si: float,
-    quantity: Quantity,
-    us_first: bool = True,
-    show: Show = measured,
-    space: str = " ",
-) -> str:
+def with_unit(text: str, symbol: str) -> str:
+    """Return a number for print with the symbol of its unit, between which no line breaks."""
+    space = "" if symbol in ("", "°", "%") else NO_BREAK
+    return f"{text}{space}{symbol}"
+
+
+def pair(value_si: float, quantity: Quantity, us_first: bool = True, show: Show = measured) -> str:
     """Return a value in both systems, such as `81.6 in (2072 mm)`, the preferred one first."""
     first, second = (
-        f"{show(value_si, unit)}{space}{unit.symbol}"
+        with_unit(show(value_si, unit), unit.symbol)
         for unit in (quantity.value if us_first else quantity.value[::-1])
     )
     return f"{first} ({second})"
-
-
-_IN_BOTH = [quantity for quantity in Quantity if quantity.has_systems]
-_SYMBOLS = "|".join(unit.symbol for quantity in _IN_BOTH for unit in quantity.value)
-_BOTH = re.compile(rf"(\S+) ({_SYMBOLS}) \((\S+) ({_SYMBOLS})\)")
-
-
-def in_us_order(text: str) -> str:
-    """Return a text with what it says in both systems in one order, whichever is preferred."""
-    return _BOTH.sub(_in_us_order, text)
-
-
-def _in_us_order(both: re.Match[str]) -> str:
-    first, unit, second, other = both.groups()
-    is_us = any(unit == quantity.us.symbol for quantity in _IN_BOTH)
-    return both[0] if is_us else f"{second} {other} ({first} {unit})"
-
-
-NO_BREAK = "\u00a0"
-# Also of units that have no other system.
-_QUANTITY = re.compile(rf"(?<=\d) (?=(?:{_SYMBOLS}|g|s|Hz|%|s/m|m g|kB|MB)(?![\w/]))")
-
-
-def kept(text: str) -> str:
-    """Return a text in which no line breaks between a number and its unit."""
-    return _QUANTITY.sub(NO_BREAK, text)
 
 
 def ratio(value: float) -> str:

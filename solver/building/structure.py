@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from solver.errors import InputError, raise_any
 from solver.model import Floats
 from solver.records.record import read_only
+from solver.spaces import NO_BREAK, spaced
 
 # Largest finite lateral stiffness ratio; infinity is the shear beam.
 MOST_ALPHA0 = 1000.0
@@ -195,7 +196,7 @@ class Building:
     words: str
 
     def __repr__(self) -> str:
-        return f"Building: {self.words}"
+        return spaced(f"Building: {self.words}")
 
 
 def building_of_periods(
@@ -282,7 +283,7 @@ def _words(lowest: Floats, damping: Sequence[float], alpha0: float, stories: int
         kind += ", in bending" if alpha0 == 0.0 else ""
         if 0.0 < alpha0 < math.inf:
             kind += f", in shear and bending with a lateral stiffness ratio of {alpha0:.3g}"
-    return f"{kind}; period {periods} s; damping {ratios}% of critical"
+    return f"{kind}; period {periods}{NO_BREAK}s; damping {ratios}% of critical"
 
 
 def _check_periods(periods_s: Sequence[float], damping: Sequence[float]) -> None:

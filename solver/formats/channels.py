@@ -18,6 +18,7 @@ from solver.formats.record_file import MotionFile, distinct
 from solver.formats.source import Source, Stated
 from solver.model import Floats
 from solver.records.record import UNITS, Record, check_gaps, check_peak, has_gravity, own, quoted
+from solver.spaces import NO_BREAK
 
 MAX_CHANNELS = 1000
 COMPONENTS = 3
@@ -92,7 +93,11 @@ def motion_file(
         a_mps2 = own(channel.a_mps2)
         # A constant is no shaking with gravity in it.
         shakes = has_gravity(a_mps2) and np.ptp(a_mps2) > 0.0
-        gravity = ("the mean is about 1 g because the record includes gravity",) if shakes else ()
+        gravity = (
+            (f"the mean is about 1{NO_BREAK}g because the record includes gravity",)
+            if shakes
+            else ()
+        )
         channel_notes = (*gravity, *channel.notes)
         records.append(
             Record(name=name, dt_s=float(channel.dt_s), a_mps2=a_mps2, notes=channel_notes)
@@ -111,7 +116,8 @@ def motion_file(
         and not any(map(has_gravity, mean))
     ):
         all_notes.append(
-            "the means of the three add up to about 1 g because the records include gravity"
+            f"the means of the three add up to about 1{NO_BREAK}g because the records include"
+            " gravity"
         )
     return MotionFile(
         name=source.name,
@@ -175,7 +181,10 @@ def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -
     if not 0.0 < stated < np.inf:
         return ()
     g = UNITS["g"]
-    words = f"the header states a peak of {stated / g:.4g} g, the values reach {reached / g:.4g} g"
+    words = (
+        f"the header states a peak of {stated / g:.4g}{NO_BREAK}g, the values reach"
+        f" {reached / g:.4g}{NO_BREAK}g"
+    )
     if not stated / _PEAK_FACTOR <= reached <= stated * _PEAK_FACTOR:
         raise InputError(f"{source.at(index)}: {words}; use a file whose header and values agree")
     return () if abs(reached - stated) <= _PEAK_WITHIN * stated else (words,)
@@ -263,6 +272,6 @@ def offset_notes(a_mps2: Floats) -> tuple[str, ...]:
     if abs(mean) <= _OFFSET * peak:
         return ()
     return (
-        f"uncorrected: the mean is {mean / UNITS['g']:.3g} g, {100.0 * abs(mean) / peak:.2g}% of"
-        " the peak; it is not removed",
+        f"uncorrected: the mean is {mean / UNITS['g']:.3g}{NO_BREAK}g,"
+        f" {100.0 * abs(mean) / peak:.2g}% of the peak; it is not removed",
     )

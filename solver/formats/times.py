@@ -18,6 +18,7 @@ from solver.errors import InputError, Problem, raise_any
 from solver.formats.source import Source, Stated
 from solver.model import Floats
 from solver.records.record import fits
+from solver.spaces import NO_BREAK
 
 # Largest total number of samples in the columns of a file after resampling.
 MAX_SAMPLES = 2_000_000
@@ -84,7 +85,7 @@ def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Eve
         return None
     # The first and the last time may both be off by half of their last digit.
     blur = 1.001 * resolution / n
-    note = f"the times are rounded to {resolution:g} s"
+    note = f"the times are rounded to {resolution:g}{NO_BREAK}s"
     if abs(source.dt_s - step) <= blur:
         rounding_note = (
             f"{note}: the entered time step is used, and a missing sample would not be noticed"
@@ -162,8 +163,8 @@ def _resampled(source: Source, t_s: Floats, columns: Floats, line_of: Callable[[
     step, even, loss = best
     moved = f" by more than {100.0 * loss:.2g}% of the peak" if loss > 1e-9 else ""
     note = (
-        f"times are uneven, steps of {steps.min():.4g} to {steps.max():.4g} s: resampled at"
-        f" {step:g} s by linear interpolation, which changes no sample{moved}"
+        f"times are uneven, steps of {steps.min():.4g} to {steps.max():.4g}{NO_BREAK}s: resampled"
+        f" at {step:g}{NO_BREAK}s by linear interpolation, which changes no sample{moved}"
     )
     return step, even, (note, *_gaps(source, t_s, usual, line_of))
 

@@ -23,6 +23,7 @@ from solver.records.record import UNITS, Record, read_only
 from solver.records.spectrum import response_spectrum
 from solver.rules.limit import MOTIONS, PROGRAM, Consequence, Limit, Measure
 from solver.rules.rulesets import Provision
+from solver.spaces import NO_BREAK
 
 # Names of the components of a motion: two horizontal ones and the vertical.
 COMPONENTS = ("x", "y", "z")
@@ -97,7 +98,7 @@ class SpectrumRatio:
         return longest, where
 
     def _at(self, freq_hz: float) -> str:
-        return f"{self.motion} {self.component}, {freq_hz:.3g} Hz"
+        return f"{self.motion} {self.component}, {freq_hz:.3g}{NO_BREAK}Hz"
 
 
 def spectrum_ratios(
@@ -139,20 +140,21 @@ def spectrum_rows(ratios: Sequence[SpectrumRatio]) -> Iterator[Limit]:
     our own: every component at 0.90 of the target or more, the mean of the motions at 1.00 or more.
     """
     if rows := _compared(ratios, _IS_AC156):
-        band = f"1.3 to 33.3 Hz{_extent(rows, _IS_AC156)}"
+        band = f"1.3 to 33.3{NO_BREAK}Hz{_extent(rows, _IS_AC156)}"
         title = f"Spectrum / target at {N_AC156} points, {band}, each component"
         yield _least(title, rows, _IS_AC156)
         title = f"Consecutive 1/6-octave points below the target, {band}"
         sets = _sets(_IS_AC156)
         dips = [row.longest_dip(points) for row, points in product(rows, sets)]
         yield _most(title, MOST_IN_A_ROW, dips)
-    for points, band in ((_IS_SLOW, "1.3 to 8.3 Hz"), (_IS_FAST, "8.3 to 33.3 Hz")):
+    for points, ends in ((_IS_SLOW, "1.3 to 8.3"), (_IS_FAST, "8.3 to 33.3")):
         if rows := _compared(ratios, points):
-            title = f"1/6-octave points below the target, {band}{_extent(rows, points)}"
+            band = f"{ends}{NO_BREAK}Hz{_extent(rows, points)}"
+            title = f"1/6-octave points below the target, {band}"
             dips = [row.dips(which) for row, which in product(rows, _sets(points))]
             yield _most(title, MOST_DIPS, dips)
     if rows := _compared(ratios, _IS_SLIDING):
-        band = f"0.1 to 1.3 Hz{_extent(rows, _IS_SLIDING)}"
+        band = f"0.1 to 1.3{NO_BREAK}Hz{_extent(rows, _IS_SLIDING)}"
         title = f"Spectrum / target at {N_SLIDING} points, {band}, each component"
         yield _least(title, rows, _IS_SLIDING, provision=PROGRAM)
         title = f"Spectrum / target at {N_SLIDING} points, {band}, mean of the motions"

@@ -17,6 +17,7 @@ import numpy as np
 from solver.errors import InputError, raise_any
 from solver.model import Floats
 from solver.records.record import Record, own
+from solver.spaces import NO_BREAK
 
 MAX_DEGREE = 8
 MAX_ORDER = 12
@@ -75,9 +76,9 @@ class Processing:
         baseline = names.get(self.baseline, f"polynomial of degree {self.baseline} removed")
         parts = [_trim_words(self), baseline, *_filter_words(self)]
         if self.dt_s > 0.0:
-            parts.append(f"resampled at {self.dt_s:g} s")
+            parts.append(f"resampled at {self.dt_s:g}{NO_BREAK}s")
         if self.pad_s > 0.0:
-            parts.append(f"{self.pad_s:g} s of zeros added at the end")
+            parts.append(f"{self.pad_s:g}{NO_BREAK}s of zeros added at the end")
         return "; ".join(part for part in parts if part) or AS_RECORDED
 
     def problems(self) -> tuple[str, ...]:
@@ -251,19 +252,19 @@ def _is_near(ratio: float, target: float) -> bool:
 def _trim_words(processing: Processing) -> str:
     if processing.from_s <= 0.0 and math.isinf(processing.to_s):
         return ""
-    end = "the end" if math.isinf(processing.to_s) else f"{processing.to_s:g} s"
-    return f"cut to {processing.from_s:g} s to {end}"
+    end = "the end" if math.isinf(processing.to_s) else f"{processing.to_s:g}{NO_BREAK}s"
+    return f"cut to {processing.from_s:g}{NO_BREAK}s to {end}"
 
 
 def _filter_words(processing: Processing) -> list[str]:
     corners = {"high-pass": processing.highpass_hz, "low-pass": processing.lowpass_hz}
     parts = [
-        f"{name} {corner:g} Hz, order {processing.order}, zero phase"
+        f"{name} {corner:g}{NO_BREAK}Hz, order {processing.order}, zero phase"
         for name, corner in corners.items()
         if corner > 0.0
     ]
     if parts:
-        parts.append(f"pads of {_pad_s(processing):g} s before and after are kept")
+        parts.append(f"pads of {_pad_s(processing):g}{NO_BREAK}s before and after are kept")
     return parts
 
 

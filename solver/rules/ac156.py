@@ -17,6 +17,7 @@ import numpy as np
 
 from solver.model import Floats
 from solver.rules.hazard import Edition
+from solver.spaces import NO_BREAK
 
 # Corner points of a target spectrum: increasing frequencies [Hz], and accelerations [g].
 Target = tuple[Floats, Floats]
@@ -65,8 +66,10 @@ class Tail(StrEnum):
 _FLEXIBLE_FROM_HZ = 1.3
 
 _TAIL_SENTENCES = {
-    Tail.AC156: "the AC156 line below 1.3 Hz (beyond 0.77 s), to 0.1 A_FLX at 0.1 Hz (10 s)",
-    Tail.RECIPROCAL: "1/T beyond 0.77 s (below 1.3 Hz), to 0.077 A_FLX at 10 s (0.1 Hz)",
+    Tail.AC156: f"the AC156 line below 1.3{NO_BREAK}Hz (beyond 0.77{NO_BREAK}s), to 0.1 A_FLX at "
+    f"0.1{NO_BREAK}Hz (10{NO_BREAK}s)",
+    Tail.RECIPROCAL: f"1/T beyond 0.77{NO_BREAK}s (below 1.3{NO_BREAK}Hz), to 0.077 A_FLX at "
+    f"10{NO_BREAK}s (0.1{NO_BREAK}Hz)",
 }
 
 # Log-log from 1.3 Hz, where it is 1: AC156 has 0.1 at 0.1 Hz, and 1/T has 0.1 Hz / 1.3 Hz.

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, Edition
 from solver.rules.rulesets import Confidence
+from solver.spaces import NO_BREAK
 
 # Site class D where the soil was not investigated.
 BY_DEFAULT = "D (default)"
@@ -109,7 +110,7 @@ def site_specific_reason(
             # With the largest value there is: does it matter at all that this one is missing?
             missing += [symbol] if _needs_analysis(table, site_class, math.inf) else []
         elif _needs_analysis(table, site_class, mapped_g):
-            return f"{name} with {symbol} = {mapped_g:g} g", ()
+            return f"{name} with {symbol} = {mapped_g:g}{NO_BREAK}g", ()
     return f"{name}, {' and '.join(missing)} not entered" if missing else "", missing
 
 

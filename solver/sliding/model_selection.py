@@ -23,6 +23,7 @@ from solver.model import Scene, SlideHistory, SlideResult, Status, coulomb
 from solver.records.record import NO_RECORD
 from solver.sliding import one_axis, two_axes
 from solver.sliding.one_axis import RecordBounds, bounds_of
+from solver.spaces import NO_BREAK, spaced
 
 
 class Model(IntEnum):
@@ -132,7 +133,7 @@ class Solution:
         return self.explanation if isinstance(self.explanation, tuple) else self.explanation()
 
     def __repr__(self) -> str:
-        return f"Solution: {self.model.title}; {self.reason}\n{self.result}\n{self._beyond}"
+        return spaced(f"Solution: {self.model.title}; {self.reason}\n{self.result}\n{self._beyond}")
 
     @property
     def _beyond(self) -> str:
@@ -387,4 +388,4 @@ def _level(scene: Scene) -> Scene:
 
 
 def _mm(value_m: float) -> str:
-    return f"{float(f'{value_m * 1e3:.2g}'):g} mm"
+    return f"{float(f'{value_m * 1e3:.2g}'):g}{NO_BREAK}mm"

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from solver.errors import InputError
 from solver.model import Floats
+from solver.spaces import NO_BREAK
 
 # One standard deviation above the median of a lognormal.
 PERCENTILE = 84.0
@@ -146,8 +147,8 @@ def fit_prd(
     cases = int(fits.sum())
     if cases < 2 * TERMS:
         raise InputError(
-            f"{cases} cases have a displacement of {1e3 * LEAST_PRD_M:g} mm or more; a formula "
-            f"needs {2 * TERMS} or more"
+            f"{cases} cases have a displacement of {1e3 * LEAST_PRD_M:g}{NO_BREAK}mm or more; a "
+            f"formula needs {2 * TERMS} or more"
         )
     slope_rad, mu, intensity, prd_m, r = (
         values[fits] for values in (slope_rad, mu, intensity, prd_m, r)

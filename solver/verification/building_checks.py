@@ -22,6 +22,7 @@ from solver.building.structure import (
 )
 from solver.model import Floats
 from solver.records.record import Record
+from solver.spaces import NO_BREAK
 from solver.verification.building import FloorRecords
 from solver.verification.evidence import ROUNDING, RoofComparison, Verified
 
@@ -51,8 +52,9 @@ def made_building(ground: Record) -> FloorRecords:
     return FloorRecords(
         title=f"Model building of {STORIES} stories",
         description=f"The model building has {STORIES} equal stories that deform in shear and "
-        f"bending, a first period of {PERIOD_S:g} s, {100 * DAMPING:g}% damping in every mode "
-        f"and a lateral stiffness ratio of {ALPHA0:g}. The ground motion is {ground.name}. The "
+        f"bending, a first period of {PERIOD_S:g}{NO_BREAK}s, {100 * DAMPING:g}% damping "
+        f"in every mode and a lateral stiffness ratio of {ALPHA0:g}. The ground motion is "
+        f"{ground.name}. The "
         "floor motions are computed by direct integration of the full system, without modal "
         "superposition, so that the modal solution and the fit have an independent reference.",
         is_recorded=False,

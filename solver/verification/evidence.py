@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 
 from solver.model import Floats
+from solver.spaces import NO_BREAK
 from solver.studies.curves import first_allowed
 from solver.verification.reference import DIGITS
 
@@ -22,7 +23,7 @@ from solver.verification.reference import DIGITS
 LEAST_M = 5e-3
 
 VERTICAL, SECOND, WORST = "Vertical", "Second axis", "Second axis, worst heading"
-STIFF, SOFT = "Row, links of 1 mm", "Row, links of 10 mm"
+STIFF, SOFT = f"Row, links of 1{NO_BREAK}mm", f"Row, links of 10{NO_BREAK}mm"
 OVER_SLOW = "Velocity-dependent μ / low-velocity μ"
 OVER_FAST = "Velocity-dependent μ / high-velocity μ"
 HELD_ONE, HELD = "Static friction, one axis", "Static friction, two axes"

@@ -81,5 +81,5 @@ def test_another_motion_of_the_same_name_has_no_runs_here():
     runs = Runs()
     runs.of(array(), MOTIONS)
     twice = replace(MOTIONS[0], scale=2.0 * MOTIONS[0].scale)
-    with pytest.raises(DefectError, match="another motion"):
+    with pytest.raises(DefectError, match="not the same motion"):
         runs.of(array(), [twice])

@@ -13,7 +13,7 @@ from report.assessment.design.routes import Route, lacking_motions, statistic_ba
 from report.text.amounts import Amount, capacity, demand
 from report.text.letter_case import lowered
 from report.text.names import ranged
-from report.text.units import Quantity, no_less, pair
+from report.text.units import NO_BREAK, Quantity, no_less, pair
 from solver.model import Status
 from solver.rules.provisions import review_lifts_slope
 from solver.rules.rulesets import RuleSet
@@ -129,7 +129,7 @@ def _outcome(status: Status, runs: list[OrientedRun], us_first: bool) -> str:
     # Up to its colon a sentence says what happened, and after it what follows.
     words = lowered(status.sentence.split(":")[0])
     if status is Status.UPLIFT:
-        return f"{words}, from {min(run.result.t_uplift_s for run in runs):.3f} s on"
+        return f"{words}, from {min(run.result.t_uplift_s for run in runs):.3f}{NO_BREAK}s on"
     if status is Status.SLIDING_AT_END:
         fastest = max(abs(run.result.end_speed_mps) for run in runs)
         return f"{words}, at {pair(fastest, Quantity.VELOCITY, us_first, no_less)}"

@@ -24,7 +24,7 @@ from report.text.amounts import capacity, demand
 from report.text.command_line import quoted
 from report.text.grouping import grouped_by, ids_by
 from report.text.names import ranged
-from report.text.units import G_MPS2, Quantity, digits_up
+from report.text.units import G_MPS2, NO_BREAK, Quantity, digits_up
 from solver.records.acceptance import (
     FULL_RATIO,
     POINTS_HZ,
@@ -245,7 +245,8 @@ def _ground_motions(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> I
             ratios = np.mean(spectra, axis=0) / goal_mps2
             index = int(np.nanargmax(ratios))
             ratio, where = max(
-                (ratio, where), (float(ratios[index]), f"{name}, at {periods_s[index]:.3g} s")
+                (ratio, where),
+                (float(ratios[index]), f"{name}, at {periods_s[index]:.3g}{NO_BREAK}s"),
             )
     row = partial(
         condition,
@@ -258,7 +259,8 @@ def _ground_motions(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> I
     )
     if where:
         yield row(
-            title=f"Mean of the ground motions / target ({target.name}), {LONG_PERIOD_S:g} to 10 s",
+            title=f"Mean of the ground motions / target ({target.name}), {LONG_PERIOD_S:g} to "
+            f"10{NO_BREAK}s",
             found=demand(ratio),
             note=where,
             is_satisfied=ratio <= MOST_LONG_RATIO,
@@ -273,7 +275,7 @@ def _ground_motions(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> I
             title="Mean of the ground motions / target at long periods",
             found=f"{' and '.join(lacking)} {NOT_GIVEN}: no target"
             if lacking and not data.spectrum
-            else f"no target from {LONG_PERIOD_S:g} s on",
+            else f"no target from {LONG_PERIOD_S:g}{NO_BREAK}s on",
             is_satisfied=False,
-            remedy="Enter S_1 and F_v, or S_D1, and T_L; or a spectrum up to 10 s.",
+            remedy=f"Enter S_1 and F_v, or S_D1, and T_L; or a spectrum up to 10{NO_BREAK}s.",
         )

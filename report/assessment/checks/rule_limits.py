@@ -17,6 +17,7 @@ from report.project.model.input_rows import Place
 from report.project.model.overrides import Override, provision_name, provision_unit
 from report.text.amounts import limit_amounts
 from report.text.letter_case import lowered
+from report.text.units import with_unit
 from solver.records.acceptance import Acceptance
 from solver.rules.limit import Consequence, Limit, Measure
 from solver.rules.provisions import building_checks
@@ -124,7 +125,7 @@ def of_overrides(data: ProjectInput) -> Iterator[Check]:
 
 def _override(rule: Provision, index: int, row: Override) -> Check:
     allowed, unit = ALLOWED[row.provision], provision_unit(row.provision)
-    value, adopted = (f"{v:.4g} {unit}".rstrip() for v in (row.value, rule.value))
+    value, adopted = (with_unit(f"{v:.4g}", unit) for v in (row.value, rule.value))
     return _lowering(
         id=OVERRIDE_ID,
         title=f"Override of the {lowered(provision_name(row.provision))}",

@@ -17,6 +17,7 @@ from report.project.model.site_input import Site
 from report.text.letter_case import capitalized
 from solver.rules.hazard import LEAST_F_A_BY_DEFAULT, REFERENCED, HazardBasis
 from solver.rules.site_coefficients import BY_DEFAULT, LEAST_S_1_OF_D_G, site_specific_reason
+from solver.spaces import NO_BREAK
 
 _FIELDS = {
     symbol: Place("site", 0, field)
@@ -125,8 +126,8 @@ def _category(site: Site) -> Check:
     missing = " and ".join(lacking)
     found_text = f"{missing} {NOT_GIVEN}: SDC {site.sdc} is not confirmed"
     if not lacking:
-        found_text = f"S_1 = {site.s_1_g:.3f} g"
-        found_text += "" if site.s_d1 is None else f", S_D1 = {site.s_d1:.3f} g"
+        found_text = f"S_1 = {site.s_1_g:.3f}{NO_BREAK}g"
+        found_text += "" if site.s_d1 is None else f", S_D1 = {site.s_d1:.3f}{NO_BREAK}g"
     return condition(
         id="sdc",
         title="Seismic design category",
@@ -159,8 +160,8 @@ def _site_class(site: Site) -> Check:
         remedy="Determine the site class"
         + (
             f": by default, F_a is at least {LEAST_F_A_BY_DEFAULT:g} "
-            f"({site.edition.clause('s_ms')}), and S_1 of {LEAST_S_1_OF_D_G:g} g or more needs a "
-            "site-specific hazard analysis or the exception "
+            f"({site.edition.clause('s_ms')}), and S_1 of {LEAST_S_1_OF_D_G:g}{NO_BREAK}g or more "
+            "needs a site-specific hazard analysis or the exception "
             f"({site.edition.clause('site_specific')})."
             if site.edition.has_site_coefficients
             else ", on which the values of a hazard tool depend."

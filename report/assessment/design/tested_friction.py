@@ -21,7 +21,7 @@ from report.project.model import ProjectInput
 from report.project.model.array import Array
 from report.text.counts import numbered
 from report.text.grouping import grouped_by
-from report.text.units import Quantity, Rounding, measured, pair
+from report.text.units import Quantity, Rounding, measured, pair, with_unit
 from solver.friction_tests import Series, Surface, fit_law, governing, series
 from solver.model import Friction
 
@@ -116,7 +116,7 @@ def runs_by_velocity(series: Series, us_first: bool) -> str:
 
 def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
     first, second = (
-        f"{', '.join(measured(value, unit) for value in values_mps)} {unit.symbol}"
+        with_unit(", ".join(measured(value, unit) for value in values_mps), unit.symbol)
         for unit in (Quantity.VELOCITY.value if us_first else Quantity.VELOCITY.value[::-1])
     )
     return f"{first} ({second})"

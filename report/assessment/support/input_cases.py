@@ -16,7 +16,7 @@ from report.assessment.design.friction import coefficient
 from report.assessment.design.routes import NOT_PERMITTED, Route
 from report.assessment.design.verdict import Verdict
 from report.assessment.support.further_runs import Variations
-from report.text.units import Quantity, nan_is_worst, no_less, number, pair
+from report.text.units import NO_BREAK, Quantity, nan_is_worst, no_less, number, pair
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +69,7 @@ def building_case(assessment: Assessment, variations: Variations) -> InputCase |
     changed = (
         f"{number(building.damping_percent, 1)}% building damping"
         if is_damping
-        else f"a building period of {number(building.period_s or math.nan, 2)} s"
+        else f"a building period of {number(building.period_s or math.nan, 2)}{NO_BREAK}s"
     )
     farther = replace(array, analysis=value, design_m=design_m)
     slides = {array.id: farther.displacement}

@@ -19,6 +19,7 @@ from solver.model import INCH_M
 from solver.rules import provisions
 from solver.rules.provisions import Neighbor
 from solver.rules.rulesets import RULE_SETS
+from solver.spaces import NO_BREAK
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,4 +111,4 @@ def keep_clear(separation_m: float, us_first: bool) -> str:
     if math.isnan(separation_m):
         return "unknown"  # "none" would read as no distance
     steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
-    return f"{steps} in" if us_first else f"{10 * steps} mm"
+    return f"{steps}{NO_BREAK}in" if us_first else f"{10 * steps}{NO_BREAK}mm"

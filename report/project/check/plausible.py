@@ -26,7 +26,7 @@ from report.project.model.values import Frozen
 from report.project.workbook import SECTIONS
 from report.project.workbook.entries import Entry, SheetSection
 from report.text.counts import counted, numbered
-from report.text.units import LENGTHS, PRESSURES, Quantity, no_more, pair
+from report.text.units import LENGTHS, NO_BREAK, PRESSURES, Quantity, no_more, pair, with_unit
 from solver.rules.rulesets import ALLOWED, usual
 from solver.rules.site_coefficients import F_A, F_V, site_coefficient
 
@@ -151,7 +151,7 @@ def _site_coefficients(site: Site) -> Iterator[Finding]:
         text = (
             f"{table.symbol} is {coefficient:g}, {'less' if coefficient < tabulated else 'more'} "
             f"than {tabulated:.4g} in {table.clause} for site class {site.site_class} and {mapped}"
-            f" {mapped_g:g} g"
+            f" {mapped_g:g}{NO_BREAK}g"
         )
         yield note(Place("site", 0, field), text)
 
@@ -308,7 +308,7 @@ def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us
     unit = entry.unit_in(is_us=is_us)
     symbol, si = (unit.symbol, unit.si) if unit else (str(entry.unit), 1.0)
     value, span = f"{getattr(row, entry.name) / si:.4g}", entry.expected.words(si)
-    text = f"{entry.spoken} is {value} {symbol}".rstrip() + f"; {span} {symbol}".rstrip()
+    text = f"{entry.spoken} is {with_unit(value, symbol)}; {with_unit(span, symbol)}"
     # The sheet Acknowledged answers a warning by this name: reasons of former workbooks depend on
     # it.
     name = " ".join(f"usual {entry.spoken} {_named(row)}".split())

@@ -17,6 +17,7 @@ from report.project.model.site_input import (
 from solver.rules import hazard
 from solver.rules.hazard import LEAST_I_E, Edition, HazardBasis
 from solver.rules.site_coefficients import F_A, F_V, CoefficientTable, site_coefficient
+from solver.spaces import NO_BREAK
 
 # Difference allowed between a value and the same from other cells: it is typed as a permit sheet
 # or a hazard tool prints it, rounded to two decimals or more.
@@ -111,7 +112,7 @@ def _agreement(row: InputRow, edition: Edition, chain: _Chain) -> Iterator[Findi
     ):
         value = row.get(field)
         if value is not None and derived is not None and abs(value - derived) > AGREES_G:
-            text = f"{symbol} is {value:g} g, but {words} is {derived:.4f} g"
+            text = f"{symbol} is {value:g}{NO_BREAK}g, but {words} is {derived:.4f}{NO_BREAK}g"
             # One fault is enough: the next ones would follow from the same cell.
             yield _fault(field, text, "leave one of them blank, or correct it")
             return

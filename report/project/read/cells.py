@@ -29,7 +29,7 @@ from report.project.read.typed_text import (
 )
 from report.project.workbook.entries import Entry
 from report.text.typed_letters import SHOWN, UNPRINTABLE, cut, trimmed
-from report.text.units import LENGTHS
+from report.text.units import LENGTHS, with_unit
 from solver.errors import InputError, Problem
 from solver.model import INCH_M
 
@@ -115,7 +115,7 @@ def as_used(value: object, entry: Entry, unit: str) -> str:
     if isinstance(value, bool):
         return str(YesNo.YES if value else YesNo.NO)
     if isinstance(value, float):
-        return (entry.zero if value == 0.0 else "") or f"{value:.6g} {unit}".rstrip()
+        return (entry.zero if value == 0.0 else "") or with_unit(f"{value:.6g}", unit)
     return "" if value is None else plain(value)
 
 

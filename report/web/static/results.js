@@ -44,7 +44,7 @@ function named(element, name) {
 
 /** Write before a number that changed that of the workbook; one of another unit is the same in other units. */
 export function withBefore(cell, was) {
-  const [[now, unit], [then, former]] = [cell, was].map((one) => (one?.textContent ?? "").split(" "));
+  const [[now, unit], [then, former]] = [cell, was].map((one) => (one?.textContent ?? "").split(/\s/));
   if (!then || then === now || unit !== former) return;
   cell.title = `${was.title || was.textContent} → ${cell.title || cell.textContent}`;
   cell.prepend(html("span", { class: "before" }, `${then} → `));

@@ -18,6 +18,7 @@ from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats
 from solver.records.record import Record, quoted
+from solver.spaces import NO_BREAK
 
 # Source: NIED, About K-NET ASCII format, www.kyoshin.bosai.go.jp/kyoshin/man/knetform_en.html, and
 # the KiK-net notes there (channels 1 to 3 in the borehole, 4 to 6 at the surface; the stated peak
@@ -90,7 +91,7 @@ def _length_notes(source: Source, length_s: float) -> tuple[str, ...]:
     stated_s = printed(source.line(index + 1).strip("#, "), index + 1).value
     if not abs(stated_s - length_s) > 1e-6:
         return ()
-    words = f"the heading states {stated_s:g} s, the record lasts {length_s:g} s"
+    words = f"the heading states {stated_s:g}{NO_BREAK}s, the record lasts {length_s:g}{NO_BREAK}s"
     # Whole seconds hide less than one; more is a file that was cut.
     if abs(stated_s - length_s) >= 1.0:
         raise InputError(f"{source.at(index + 1)}: {words}; use the complete file")

@@ -25,6 +25,7 @@ from solver.formats.source import MAX_BYTES, Source, Stated, waveform_format
 from solver.formats.times import round_step
 from solver.model import Floats
 from solver.records.record import Record, quoted, unit_size
+from solver.spaces import NO_BREAK
 
 # Source: SEED reference manual, version 2.4 (data records); SAC manual, data file format (IDEP: 6
 # displacement, 7 velocity, 8 acceleration, whose unit by the manual, nm/s2, is often not kept);
@@ -113,7 +114,7 @@ def _scale(source: Source, obspy: Any, trace: Any, values: Floats) -> tuple[floa
         return source.counts_scale(f"{source.name}: found {trace.id}"), notes
     inventory = _inventory(source, obspy)
     per_mps2, at_hz = _sensitivity(source, inventory, trace)
-    note = f"raw counts / {per_mps2:.6g} per m/s2, the sensitivity at {at_hz:g} Hz"
+    note = f"raw counts / {per_mps2:.6g} per m/s2, the sensitivity at {at_hz:g}{NO_BREAK}Hz"
     sign, orientation = _orientation(inventory, trace)
     notes = (*notes, f"{note}; the response at other frequencies is not removed", *orientation)
     return sign / per_mps2, notes

@@ -6,6 +6,7 @@ import pytest
 
 from fixtures import altered_projects, assessments, projects
 from fixtures.project_parts import INCH
+from fixtures.spaces import spaced
 from report.assessment.checks.check import Check, Sense, by_ratio, verdict_of
 from report.assessment.checks.sentence import alike, sentence, texts, words
 from report.assessment.design.verdict import Verdict
@@ -64,11 +65,11 @@ def test_a_ratio_above_one_is_what_is_not_satisfied(make):
 @pytest.mark.quick
 def test_a_check_is_one_sentence_and_a_cell():
     said = sentence(check(), us_first=True)
-    assert said == (
+    assert spaced(said) == (
         "Clearance, A1 to RTU-1: 20.0 in (508 mm). Required: at least 40.8 in (1037 mm)† "
         "(PV1-2012†). To close: widen the clearance."
     )
-    assert texts(check(), us_first=True, is_both=False) == ("20.0 in", "≥ 40.8 in†")
+    assert spaced(texts(check(), us_first=True, is_both=False)) == ("20.0 in", "≥ 40.8 in†")
     assert words(check()) == "clearance A1 to RTU-1 (D/C 2.04)"
 
 

@@ -8,6 +8,7 @@ import pytest
 from fixtures import assessments, project_parts, projects
 from fixtures.pages import page_of
 from fixtures.projects import FOOT, INCH
+from fixtures.spaces import spaced
 from report.assessment.checks import (
     capacities,
     confirmations,
@@ -134,8 +135,8 @@ def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wi
 ):
     given = {"weight_n": weight_psf * 80 * 60 * WEIGHTS["lb"], "wind_weight_pa": 8.0 * PSF}
     row = before_runs("roof_capacity", roof_capacity_pa=capacity_psf * PSF, **given)
-    assert (*texts(row), row.verdict) == (found, limit, verdict)
-    assert texts(before_runs("wind_weight", **given))[1] == f"= {found}"
+    assert spaced((*texts(row), row.verdict)) == (found, limit, verdict)
+    assert spaced(texts(before_runs("wind_weight", **given))[1]) == f"= {found}"
     row = before_runs("roof_capacity", **given)
     assert (row.found, row.verdict) == ("roof capacity not entered", Verdict.CONDITION)
 
@@ -150,7 +151,7 @@ def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wi
 )
 def test_another_weight_in_the_wind_design_is_a_condition(wind_psf, units, found, verdict):
     said = before_runs("wind_weight", units=units, wind_weight_pa=wind_psf * PSF)
-    assert texts(said, us_first=units == "US")[0] == found
+    assert spaced(texts(said, us_first=units == "US")[0]) == found
     assert said.verdict is verdict
     said = before_runs("wind_weight")
     assert (said.found, said.verdict) == ("not entered", Verdict.CONDITION)
@@ -194,9 +195,9 @@ def test_whether_there_is_a_fire_pathway_is_asked_of_each_clearance():
 def test_a_fire_pathway_keeps_its_width_after_the_displacement(other, second, n_slides):
     found, _ = pathway(other, 0.001, **second)
     width, limit = texts(found)
-    assert (found.verdict, limit) == (Verdict.OK, "≥ 36.0 in (915 mm)")
+    assert spaced((found.verdict, limit)) == (Verdict.OK, "≥ 36.0 in (915 mm)")
     assert width.count("−") == n_slides
-    assert width.startswith("36.0 in (915 mm) (")
+    assert spaced(width).startswith("36.0 in (915 mm) (")
     found, of_array = pathway(other, -0.001, **second)
     assert found.verdict is Verdict.NG
     assert of_array is Verdict.NG
@@ -257,7 +258,7 @@ def test_what_is_open_on_the_hazard_is_a_condition(given, conditions):
 def test_the_sdc_is_confirmed_by_s_1_and_by_s_d1_where_it_matters(given, words):
     site = S_DS_ALONE | given
     found = hazard_of(**site)["sdc"]
-    assert found.found == words
+    assert spaced(found.found) == words
     assert found.is_satisfied is ("not" not in words)
     data = projects.project(site=projects.site(**site))
     assert data.site.sdc_text == ("D" if found.is_satisfied else "D (not confirmed)")
@@ -270,7 +271,7 @@ def test_site_class_d_by_default_says_11_4_8_of_its_edition_alone(site_class):
     assert "F_a is at least 1.2" in found["site_class"].remedy
     assert "ASCE 7-16 11.4.8" in found["site_class"].remedy
     title = "Hazard analysis for site class D by default with S_1 = 0.7 g"
-    assert found["site_specific_hazard"].title == title
+    assert spaced(found["site_specific_hazard"].title) == title
     assert "11.4.8" not in hazard_of(**SOURCED | ASCE_7_22)["site_class"].remedy
 
 
@@ -286,7 +287,7 @@ def test_site_class_d_by_default_says_11_4_8_of_its_edition_alone(site_class):
 )
 def test_what_11_4_8_asks_for_is_said_also_where_it_cannot_be_told(given, asked):
     found = hazard_of(**given)["site_specific_hazard"]
-    assert found.title == (f"Hazard analysis for {asked}" if asked else "Hazard analysis")
+    assert spaced(found.title) == (f"Hazard analysis for {asked}" if asked else "Hazard analysis")
 
 
 @pytest.mark.parametrize(
@@ -320,7 +321,7 @@ def test_a_clearance_that_five_percent_less_friction_breaks_is_a_condition():
     assert done.clearances[0].ok
     assert not done.at_reduced_friction.clearances[0].ok
     assert row(done, "clearance_less_friction").verdict is Verdict.CONDITION
-    assert "5% less friction" in row(done, "clearance_less_friction").title
+    assert "5% less friction" in spaced(row(done, "clearance_less_friction").title)
 
 
 @pytest.mark.parametrize("provided", [None, 6.0])
@@ -343,10 +344,10 @@ def test_a_gap_of_the_plan_without_a_clearance_is_ng_where_it_is_too_small(
     assert found.verdict is expected
     assert (done.array_verdict(done.arrays[0]) is Verdict.NG) is (expected is Verdict.NG)
     if expected is Verdict.NG:
-        assert texts(found)[0] == "24.0 in (609 mm) (not entered)"
+        assert spaced(texts(found)[0]) == "24.0 in (609 mm) (not entered)"
         assert texts(found)[1].startswith("≥ ")
     if provided:
-        assert "24.0 in (609 mm) on the plan" in found.found
+        assert "24.0 in (609 mm) on the plan" in spaced(found.found)
         assert "with the distance on the plan, it would be NG" in found.remedy
 
 
@@ -384,11 +385,12 @@ def test_a_route_that_five_percent_less_friction_closes_is_a_note(mu, is_closed)
     found = row(assessed(assessments.level(), arrays=arrays, clearances=[]), "less_friction")
     assert found.is_satisfied is not is_closed
     if is_closed:
-        assert found.title == "The prescriptive procedure with 5% less friction"
+        assert spaced(found.title) == "The prescriptive procedure with 5% less friction"
         assert found.verdict is Verdict.NOTE
         assert found.found == "not permitted with μ = 0.389"
         assert (
-            found.remedy == "The procedure is permitted as entered but not with 5% less friction."
+            spaced(found.remedy)
+            == "The procedure is permitted as entered but not with 5% less friction."
         )
 
 
@@ -429,7 +431,7 @@ def test_ground_motions_are_compared_with_the_design_spectrum_where_there_is_one
         ({"spectrum": projects.SHORT_SPECTRUM}, "no target from 1 s on"),
     ):
         found = grounded(**given)
-        assert (found.found, found.verdict) == (said, Verdict.CONDITION)
+        assert spaced((found.found, found.verdict)) == (said, Verdict.CONDITION)
 
 
 @pytest.mark.parametrize(("ratio", "is_met"), [(1.95, True), (2.05, False)])

@@ -10,6 +10,7 @@ from fixtures import assessments, project_parts, projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
 from fixtures.single_runs import prd_m
+from fixtures.spaces import spaced
 from fixtures.workbooks import cell_address, make, problems, read_workbook, type_into
 from report.assessment.design.routes import Route
 from report.assessment.design.verdict import Verdict
@@ -236,7 +237,7 @@ def test_the_building_case_is_the_farthest_or_one_without_a_value_where_it_matte
     if building.damping_percent == 5.0:
         assert case.changed == f"{building.period_s:.2f} s as the period of the building"
     else:
-        assert case.changed == f"{building.damping_percent:.1f}% building damping"
+        assert spaced(case.changed) == f"{building.damping_percent:.1f}% building damping"
     used, (building, value), *others = evidence.building
     lifting = building, replace(value, value_m=math.nan)
     for order in ((lifting, *others), (*others, lifting)):
@@ -295,6 +296,6 @@ def test_steep_roofs_and_a_whole_floor_leave_nothing_to_save():
     assert text.startswith("An analysis is not permitted without peer review, because ")
     override = Override(provision="analysis_floor", value=1.0, reason="Agreed on 2026-02-10")
     text = said(with_inputs(overrides=(override,)))
-    assert text.startswith(
+    assert spaced(text).startswith(
         "Without peer review, an analysis would not reduce it: the floor is 100%"
     )

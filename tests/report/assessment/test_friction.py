@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from fixtures import assessments, projects
+from fixtures.spaces import spaced
 from report.assessment.checks.sentence import found_and_limit
 from report.assessment.design.friction import at_low_velocity, mu_words, mus_words
 from report.assessment.design.tested_friction import VelocityCheck, basis_words
@@ -91,7 +92,7 @@ NEAR = wet_runs((0.457, 0.495, 0.525, 0.527))  # mean 0.501
     ],
 )
 def test_the_fit_alone_is_as_tested_and_one_coefficient_is_entered(given, law, says):
-    assert basis(given, **law) == f"{says} {RANGE}"
+    assert spaced(basis(given, **law)) == f"{says} {RANGE}"
 
 
 @pytest.mark.parametrize(
@@ -109,7 +110,7 @@ def test_the_fit_alone_is_as_tested_and_one_coefficient_is_entered(given, law, s
     ids=["too few velocities for a fit", "one velocity", "no velocity", "no runs"],
 )  # fmt: skip
 def test_the_velocities_of_the_tests_are_said_as_far_as_they_are_given(given, law, says):
-    assert basis(given, **law) == says
+    assert spaced(basis(given, **law)) == says
 
 
 RISING = {"mu": 0.30, "mu_fast": 0.45, "mu_rate_s_per_m": 20.0}
@@ -176,8 +177,8 @@ def test_the_largest_velocity_and_friction_beyond_the_tests_are_told(by_velocity
     if "complete tests" in limit:
         assert "; μ above the tested range 0.450, smallest tested 0.400" in found
     else:
-        assert limit == "≤ 10.00 in/s (254.0 mm/s)"
-        assert "tested to 1.00 in/s (25.4 mm/s); μ above the tested range 0.450" in found
+        assert spaced(limit) == "≤ 10.00 in/s (254.0 mm/s)"
+        assert "tested to 1.00 in/s (25.4 mm/s); μ above the tested range 0.450" in spaced(found)
     # A coefficient that was not run is not offered: entered, it may be NG.
     assert row.remedy == "Obtain friction tests at the sliding velocities."
     # With the low-velocity coefficient alone the floor governs as well: that costs nothing.
@@ -199,7 +200,7 @@ def test_nothing_is_beyond_fast_tests_or_where_nothing_slides():
     weak = [replace(motion, scale=1e-3 * motion.scale) for motion in MOTIONS]
     row = rows(one(slope=0.5, tests=runs(0.2), shaking=weak))["A1"]
     assert row.is_satisfied
-    assert [text.split(" (")[0] for text in said(row)] == ["0.00 in/s", "≤ 1.00 in/s"]
+    assert spaced([text.split(" (")[0] for text in said(row)]) == ["0.00 in/s", "≤ 1.00 in/s"]
 
 
 def test_tests_without_velocities_or_none_are_conditions():

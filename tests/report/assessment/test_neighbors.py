@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from fixtures import assessments, projects
 from fixtures.plan_pictures import roof_plan
 from fixtures.project_parts import FT, INCH, NO_SIDES, sides
+from fixtures.spaces import spaced
 from fixtures.workbooks import cell_address, make, project
 from report.assessment.assess import assess
 from report.assessment.checks.sentence import texts
@@ -276,13 +277,19 @@ def test_a_short_gap_without_a_row_is_ng_in_the_drawing_the_picture_and_on_the_p
     assert missing.provided_m == pytest.approx(0.3048)  # from x = 100 to 101 ft
     assert missing.required_m == unlisted.arrays[0].design_m
     row = [t.words for t in plan_drawing(unlisted).texts if t.layer is Layer.CLEARANCE_NG]
-    assert row == ["not entered", "A1 to RTU-9", "12.0 in (304 mm)", "40.8 in (1036 mm)", "NG"]
+    assert spaced(row) == [
+        "not entered",
+        "A1 to RTU-9",
+        "12.0 in (304 mm)",
+        "40.8 in (1036 mm)",
+        "NG",
+    ]
     shown = re.findall(r"<text[^>]*>([^<]*)</text>", roof_plan(unlisted, LETTER))
     label = {"NG", "not entered; in plan 12.0 in", "required 40.8 in"}
-    assert label <= set(shown)
+    assert label <= spaced({*shown})
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
     drawn = plan(Marks(unlisted), designs, ((), ()), stamp, {})["drawn"]
-    assert label <= set(re.findall(r"<text[^>]*>([^<]*)</text>", drawn))
+    assert label <= spaced({*re.findall(r"<text[^>]*>([^<]*)</text>", drawn)})
 
 
 def lowered(**changes):
@@ -305,12 +312,12 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
     (gap,) = plan_gaps(unlisted)
     assert (gap.number, gap.mark) == (0, "‡")
     (row,) = (row for row in unlisted.checks if row.id == "neighbors")
-    assert re.search(r"^≥ [\d.]+ in \([\d.]+ mm\)‡", texts(row, us_first=True)[1])
+    assert re.search(r"^≥ [\d.]+\sin \([\d.]+\smm\)‡", texts(row, us_first=True)[1])
     assert unlisted.is_overridden
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
     drawn = plan(Marks(unlisted), designs, ((), ()), stamp, {})["drawn"]
-    assert re.search(r"required [\d.]+ in‡", drawn)
-    assert re.search(r"required [\d.]+ in‡", roof_plan(unlisted, LETTER))
+    assert re.search(r"required [\d.]+\sin‡", drawn)
+    assert re.search(r"required [\d.]+\sin‡", roof_plan(unlisted, LETTER))
     words = [t.words for t in plan_drawing(unlisted).texts if t.layer is Layer.CLEARANCE_NG]
     assert any("mm) (overridden)" in text for text in words)
     assert "NG" in words

@@ -16,6 +16,7 @@ from fixtures.cells import cell
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.project_parts import FT, INCH, clearance, roof_object, sides
+from fixtures.spaces import spaced
 from fixtures.workbooks import (
     SECTIONS,
     cell_address,
@@ -326,7 +327,7 @@ def test_check_names_the_pairs_without_a_row_before_any_run(tmp_path):
     path = make(tmp_path, **BARE)
     sheet = read(path)
     (found,) = missing_clearances(sheet)
-    assert found.text.startswith(
+    assert spaced(found.text).startswith(
         "2 of 2 pairs within reach have no row: A2 to RTU-1 60.0 in (1524 mm), A1 to A2 120.0 in"
         " (3048 mm). Reach before any run: twice the prescriptive displacement, 163.2 in (4144 mm)"
     )

@@ -7,6 +7,7 @@ import pytest
 
 from fixtures import assessments, project_parts, projects, workbooks
 from fixtures.commands import stdout_of
+from fixtures.spaces import spaced
 from report.assessment.checks.motion_checks import shaking_acceptance
 from report.assessment.checks.sentence import sentence
 from report.assessment.design.routes import Route
@@ -77,7 +78,7 @@ def test_a_limit_names_its_cell_its_value_and_the_limit_and_cannot_be_acknowledg
         "NG. Number of stories: 7. Required: at most 6† (PV1-2012†)."
     )
     slope = Place("arrays", 0, "slope_value")
-    assert [finding.text for finding in listed if finding.place == slope] == [
+    assert spaced([finding.text for finding in listed if finding.place == slope]) == [
         "NG. Roof slope, any ballasted system, A1: 8.00° (14.1%). "
         "Required: at most 4.76° (8.3%)† (IBC 1613.3†).",
         "NG. Roof slope, analysis procedure, A1: 8.00° (14.1%). "

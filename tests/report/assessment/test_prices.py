@@ -7,6 +7,7 @@ import pytest
 from fixtures import altered_projects, assessments, projects
 from fixtures.marks import nightly
 from fixtures.pages import page_of
+from fixtures.spaces import spaced
 from report.assessment.assess import Extent, assess
 from report.assessment.causes import governing_words
 from report.assessment.checks.check import VELOCITY_ROW
@@ -62,8 +63,8 @@ def test_a_price_stands_with_its_condition_and_beside_a_review_that_removes_the_
     done = altered_projects.assessed("peer review")
     line = done.otherwise["peer_review"]
     assert line.startswith("Without peer review: not NG, clearance A1 to RTU-1 (D/C ")
-    assert line.endswith("; Δ up to 47.4 in (1204 mm).")
-    assert line in page_of(assessments.package_data(done), "summary")
+    assert spaced(line).endswith("; Δ up to 47.4 in (1204 mm).")
+    assert spaced(line) in page_of(assessments.package_data(done), "summary")
     # What is not reviewed has its floor, and what changes nothing no price.
     assert "peer_review" not in altered_projects.assessed("reviewer's name alone").otherwise
     assert "override" not in done.otherwise

@@ -11,6 +11,7 @@ import pytest
 
 from fixtures import assessments, project_parts, projects
 from fixtures.single_runs import slides
+from fixtures.spaces import spaced
 from report import assess_project
 from report.assessment.checks.displacement import run_checks
 from report.assessment.design.arrays import DesignBasis, assess_array
@@ -172,7 +173,7 @@ def test_runs_that_never_stop_are_one_sentence_with_their_count_and_us_speed():
     found = re.fullmatch(
         r"11 of 11 runs: still sliding at the end of the record, at (\d+\.\d\d) in/s "
         r"\(\d+\.\d mm/s\); CUT0 to CUT10",
-        found.found,
+        spaced(found.found),
     )
     assert float(found[1]) * 0.0254 == pytest.approx(speed, rel=0.01)
 

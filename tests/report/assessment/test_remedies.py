@@ -10,6 +10,7 @@ from fixtures import altered_projects, assessments, project_parts, projects
 from fixtures.marks import nightly
 from fixtures.pages import page_of
 from fixtures.single_runs import prd_m, slid
+from fixtures.spaces import spaced
 from report.assessment.assess import entered
 from report.assessment.causes import came_to
 from report.assessment.design.friction import with_mu
@@ -77,7 +78,7 @@ def test_every_remedy_that_is_printed_gives_the_verdict_that_was_printed(name):
 
 def test_what_fails_has_its_own_remedies_and_nothing_else_has():
     (found,) = remedies(altered_projects.assessed("small roof capacity")).own
-    assert found.words == (
+    assert spaced(found.words) == (
         "Provide roof capacity of at least 5.5 psf (0.27 kPa) for A2 (entered: 2.0 psf (0.10 kPa))"
     )
     # Nobody changes the use of a building or its stories for an array.
@@ -99,9 +100,9 @@ def test_of_several_causes_the_smallest_set_is_printed_as_one_remedy():
     ]  # fmt: skip
     line = f"remedy: {found.sentence}"
     assert line in summary(done)
-    assert "Provide roof capacity of at least 5.5 psf" in line
-    assert "and move A1 20.8 in (529 mm) west. Project verdict: OK with conditions" in line
-    assert found.sentence in page_of(assessments.package_data(done), "summary")
+    assert "Provide roof capacity of at least 5.5 psf" in spaced(line)
+    assert "and move A1 20.8 in (529 mm) west. Project verdict: OK with conditions" in spaced(line)
+    assert spaced(found.sentence) in page_of(assessments.package_data(done), "summary")
     # One array is too steep whatever the others do: no set is called enough.
     done = altered_projects.assessed("two causes and a slope")
     found = remedies(done)
@@ -115,7 +116,7 @@ def test_a_displacement_by_peer_review_is_that_of_each_array_by_its_name():
     after = {item.id: item.design_m for item in fresh(done, found.change).arrays}
     assert after["A1"] != after["A2"]
     for name in ("A1", "A2"):
-        assert f"{name} {math.ceil(after[name] / INCH * 10) / 10:.1f} in" in found.words
+        assert f"{name} {math.ceil(after[name] / INCH * 10) / 10:.1f} in" in spaced(found.words)
     assert "A3" not in found.words
 
 
@@ -128,10 +129,12 @@ def test_where_the_motions_do_not_permit_an_analysis_motions_that_do_are_named()
         done = altered_projects.assessed(name)
         words = without_analysis(done)
         assert words.startswith("the motions do not permit an analysis (")
-        assert f"{lack}), so the package uses the prescriptive displacement, 81.6 in" in words
-        assert "At 40.8 in (1036 mm), " in words
+        assert f"{lack}), so the package uses the prescriptive displacement, 81.6 in" in spaced(
+            words
+        )
+        assert "At 40.8 in (1036 mm), " in spaced(words)
         assert f"note: {words}" in summary(done)
-        assert words[1:] in page_of(assessments.package_data(done), "limits")
+        assert spaced(words[1:]) in page_of(assessments.package_data(done), "limits")
     assert without_analysis(altered_projects.assessed("short clearance")) == ""
 
 
@@ -301,7 +304,7 @@ def test_an_array_is_moved_where_the_plan_has_room_and_everything_is_checked_aga
     assert gap.verdict is Verdict.NG
     (found,) = of_kind(given, RemedyKind.SEPARATION)
     inches = math.ceil((gap.required_m - gap.provided_m) / INCH * 10 - 1e-6) / 10
-    assert found.words.startswith(f"Move A1 {inches:.1f} in (")
+    assert spaced(found.words).startswith(f"Move A1 {inches:.1f} in (")
     assert found.words.endswith(") west")
     (moved,) = found.done.clearances
     assert moved.required_m == gap.required_m <= moved.provided_m
@@ -344,7 +347,7 @@ def test_an_object_without_a_place_in_plan_needs_the_separation_alone():
         clearances=[GAP("A1", "RTU-1", FOOT)],
     ).assessment
     (found,) = of_kind(given, RemedyKind.SEPARATION)
-    assert found.words == "Provide 28.8 in (732 mm) more from A1 to RTU-1"
+    assert spaced(found.words) == "Provide 28.8 in (732 mm) more from A1 to RTU-1"
     assert found.done.clearances[0].provided_m >= found.done.clearances[0].required_m
 
 
@@ -385,7 +388,7 @@ def test_friction_is_assessed_as_entered_and_not_beyond_its_tests():
 def test_peer_review_is_offered_where_it_removes_a_floor_that_governs_and_only_there():
     given = beside(x=102.5)
     (found,) = of_kind(given, RemedyKind.REVIEW)
-    assert found.words == (
+    assert spaced(found.words) == (
         "Obtain a peer review of the analysis: design displacement of A1 3.9 in (98 mm) instead of "
         "40.8 in (1036 mm)"
     )
@@ -403,13 +406,15 @@ def test_peer_review_is_offered_where_it_removes_a_floor_that_governs_and_only_t
 def test_terminal_page_and_package_have_one_sentence_of_it():
     given = beside()
     words = remedies(given).sentence
-    assert words.startswith("Move A1 28.8 in (732 mm) west. Project verdict: OK with conditions, ")
+    assert spaced(words).startswith(
+        "Move A1 28.8 in (732 mm) west. Project verdict: OK with conditions, "
+    )
     lines = list(summary(given))
     at = lines.index(f"remedy: {words}")
     assert lines[at - 1].startswith("NG: ")
     reasons = answer(given, is_provisional=False)["reasons"]
     assert ("remedy", words) in [(reason["level"], reason["text"]) for reason in reasons]
     package = assessments.package_data(given)
-    assert words in page_of(package, "summary")
-    assert f"Clearance, A1 to RTU-1: {words}" in page_of(package, "limits")
+    assert spaced(words) in page_of(package, "summary")
+    assert spaced(f"Clearance, A1 to RTU-1: {words}") in page_of(package, "limits")
     assert not any(line.startswith("remedy") for line in summary(beside(x=150.0)))

@@ -7,6 +7,7 @@ import pytest
 from fixtures import assessments, project_parts, projects
 from fixtures.marks import by_day
 from fixtures.projects import FOOT, INCH
+from fixtures.spaces import spaced
 from report.assessment.checks.clearance_checks import of_roof
 from report.assessment.checks.rule_limits import of_overrides
 from report.assessment.checks.sentence import found_and_limit
@@ -44,24 +45,24 @@ def texts(check, *, us_first=True):
 def test_fire_lanes_limit_an_array_to_150_feet_by_the_section_given(to_ft, verdict):
     (row,) = rows((0, to_ft)).values()
     assert (row.verdict, row.clause) == (verdict, f"{SECTION}†")
-    assert texts(row)[0].startswith(f"{to_ft:.2f} ft (45.7")
+    assert spaced(texts(row)[0]).startswith(f"{to_ft:.2f} ft (45.7")
     (row,) = rows((0, to_ft), units="SI").values()
-    assert texts(row, us_first=False)[1] == "≤ 45.72 m (150.00 ft)†"
+    assert spaced(texts(row, us_first=False)[1]) == "≤ 45.72 m (150.00 ft)†"
 
 
 @pytest.mark.quick
 def test_arrays_closer_than_a_lane_by_their_shapes_are_one():
     found = rows((0, 80), (83.9, 163.9), (167.9, 200))
-    assert [(texts(row)[0], row.verdict) for row in found.values()] == [
+    assert spaced([(texts(row)[0], row.verdict) for row in found.values()]) == [
         *[("163.90 ft (49.96 m) (A1, A2)", Verdict.CONDITION)] * 2,
         ("60.00 ft (18.29 m)", Verdict.OK),
     ]
-    assert found["A1"].title.endswith("without a fire pathway of 4.00 ft (1.22 m)")
+    assert spaced(found["A1"].title).endswith("without a fire pathway of 4.00 ft (1.22 m)")
     assert found["A1"].remedy.startswith("Separate the arrays with a fire pathway")
     assert found["A1"].places[0] == Place("arrays", 0, "x_from_m")
     # Through a neighbor, in any order.
     found = rows((0, 60), (126, 186), (63, 123))
-    assert {texts(row)[0] for row in found.values()} == {"186.00 ft (56.69 m) (A1 to A3)"}
+    assert spaced({texts(row)[0] for row in found.values()}) == {"186.00 ft (56.69 m) (A1 to A3)"}
     # A ring of an outline around another array is one with it only where it is near.
     ring = [(0, 0), (140, 0), (140, 140), (130, 140), (130, 10), (10, 10), (10, 140), (0, 140)]
     outlines = [{"name": "A1", "x_m": x * FOOT, "y_m": y * FOOT} for x, y in ring]
@@ -72,7 +73,7 @@ def test_arrays_closer_than_a_lane_by_their_shapes_are_one():
     ]  # fmt: skip
     site = projects.site(fire_code_section=SECTION)
     data = projects.project(arrays=arrays, outlines=outlines, clearances=[], site=site)
-    found = {id: texts(row)[0] for id, row in sections_of(data).items()}
+    found = spaced({id: texts(row)[0] for id, row in sections_of(data).items()})
     assert found["A1"].startswith("140.00 ft")
     assert found["A2"].startswith("130.00 ft")
 
@@ -141,10 +142,10 @@ def test_an_override_that_requires_less_is_a_condition(key, less, more):
 def test_an_override_is_a_row_with_both_numbers_and_a_condition():
     (found,) = of_overrides(projects.project(overrides=overrides(prescriptive_minimum_in=3.0)))
     assert found.title == "Override of the minimum prescriptive displacement"
-    assert (found.found, found.limit) == ("3 in‡, agreed", "≥ 6 in")
+    assert spaced((found.found, found.limit)) == ("3 in‡, agreed", "≥ 6 in")
     assert found.clause == "PV1-2012"
     (slope,) = of_overrides(projects.project(overrides=overrides(analysis_max_slope_deg=10.0)))
-    assert slope.limit == "≤ 7 deg"
+    assert spaced(slope.limit) == "≤ 7 deg"
     plain, done = overridden(), overridden(separation_fixed=0.5)
     more = [row for row in done.open if row not in plain.open]
     assert [row.id for row in more] == ["override"]

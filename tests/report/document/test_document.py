@@ -7,11 +7,13 @@ from operator import itemgetter
 import pytest
 from markupsafe import Markup
 
+from fixtures.spaces import spaced
+from report.cli.console import plain
 from report.document.columns import required, text, words
 from report.document.tables import Wide, listed, merged
 from report.document.templates import rendered, said, state_of
 from report.text.unit_format import UnitFormat
-from report.text.units import no_less
+from report.text.units import Quantity, no_less, pair, with_unit
 
 pytestmark = pytest.mark.quick
 
@@ -101,10 +103,11 @@ def test_where_nothing_can_be_kept_a_template_is_compiled(tmp_path):
 def test_a_page_keeps_a_number_and_its_unit_together_and_the_screen_has_plain_blanks(tmp_path):
     text = "{% macro words() %}<b>{{ found }}</b>{% endmacro %}{{ words() }}"
     (tmp_path / "page.html").write_text(text, encoding="utf-8")
-    found = {"found": "12 in (305 mm) < 3 inches, 1.5 g"}
+    found = {"found": f"{pair(0.3048, Quantity.SIZE)} < 3 inches, {with_unit('1.5', 'g')}"}
     page = rendered(tmp_path, "page.html", found)
-    assert page == "<b>12\u00a0in (305\u00a0mm) &lt; 3 inches, 1.5\u00a0g</b>"
-    assert said(tmp_path, "page.html", "words", found) == f"<b>{found['found']}</b>"
+    assert page == "<b>12.0\u00a0in (305\u00a0mm) &lt; 3 inches, 1.5\u00a0g</b>"
+    words = plain(said(tmp_path, "page.html", "words", found))
+    assert words == "<b>12.0 in (305 mm) < 3 inches, 1.5 g</b>"
 
 
 @pytest.mark.parametrize(
@@ -117,6 +120,6 @@ def test_a_quantity_is_shown_in_both_systems_with_its_mark(us_first, cells, both
     columns = [(required("Required"), lambda value_m: value_m, lambda _: "†")]
     known, unknown = listed([0.5, math.nan], columns, fmt).rows
     assert known.cells == cells
-    assert fmt.both(0.5, show=no_less, mark="†") == both
+    assert spaced(fmt.both(0.5, show=no_less, mark="†")) == both
     assert unknown.cells == ("none", "none")
     assert fmt.both(math.nan, mark="†") == "none"

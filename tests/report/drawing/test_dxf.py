@@ -20,6 +20,7 @@ from fixtures import assessments, projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
 from fixtures.project_parts import FT, sides
+from fixtures.spaces import spaced
 from report.assessment.support.envelopes import design_envelope
 from report.assessment.support.plan_gaps import plan_gaps
 from report.drawing.layers import Layer
@@ -59,10 +60,10 @@ def read(data):
 def test_texts_name_what_is_drawn_and_the_same_plan_gives_the_same_bytes(done):
     assert write_dxf(plan_drawing(done)) == write_dxf(plan_drawing(done))
     plan = plan_drawing(done)
-    said = [text.words for text in plan.texts]
+    said = [spaced(text.words) for text in plan.texts]
     arrays = {f"{a.id}: displacement {a.design_m / 0.0254:.1f} in" for a in done.arrays}
     assert arrays | {"RTU-1, height 42.0 in", "T-1", "S edge", "N"} <= set(said)
-    gap = next(row for row in rows(plan) if row[:2] == ("5", "A2 to S edge"))
+    gap = spaced(next(row for row in rows(plan) if row[:2] == ("5", "A2 to S edge")))
     assert gap[2:] == ("60.0 in (1524 mm)", "61.2 in (1554 mm)", "NG")
     failed = [gap.name for gap in plan.dimensions if gap.layer is Layer.CLEARANCE_NG]
     assert failed == ["A2 to S edge"]
@@ -104,9 +105,11 @@ def test_the_auditor_finds_nothing_and_lines_texts_and_dimensions_are_read_back(
         assert drawn.get_xdata(APPLICATION)[0].value == line.name
         for point, wanted in zip(drawn.get_points("xy"), line.points, strict=True):
             assert point == pytest.approx(wanted, abs=1e-6)
-    assert [text.dxf.text for text in space.query("TEXT")] == [text.words for text in plan.texts]
+    assert [text.dxf.text for text in space.query("TEXT")] == [
+        spaced(text.words) for text in plan.texts
+    ]
     for gap, drawn in zip(plan.dimensions, space.query("DIMENSION"), strict=True):
-        assert (drawn.dxf.layer, drawn.dxf.text) == (gap.layer.title, gap.words)
+        assert (drawn.dxf.layer, drawn.dxf.text) == (gap.layer.title, spaced(gap.words))
         assert drawn.get_xdata(APPLICATION)[0].value == gap.name
         for point, wanted in zip((drawn.dxf.defpoint2, drawn.dxf.defpoint3), gap.ends, strict=True):
             assert point.vec2.isclose(wanted, abs_tol=1e-6)
@@ -178,7 +181,7 @@ def test_a_gap_short_by_less_than_a_digit_does_not_read_as_enough(done):
         replace(done, clearances=(replace(gap, clearance=near),), at_reduced_friction=None)
     )
     *_, provided, required, verdict = gap_cells(gap, us_first=True)
-    assert float(required.split(" ")[0]) > float(provided.split(" ")[0])
+    assert float(required.split()[0]) > float(provided.split()[0])
     assert verdict == "NG"
 
 
@@ -189,7 +192,7 @@ def test_a_displacement_that_is_not_permitted_marks_nothing_and_keeps_nothing_cl
     array = next(row for row in rows(plan) if row[0] == "A1")
     assert array[1:3] == ("not permitted", "no value")
     first = next(row for row in rows(plan) if row[:2] == ("1", "A1 to RTU-1"))
-    assert first[2:] == ("84.0 in (2133 mm)", "no value", "no verdict")
+    assert spaced(first[2:]) == ("84.0 in (2133 mm)", "no value", "no verdict")
     layers = {gap.name: gap.layer for gap in plan.dimensions}
     assert layers == {
         "A1 to RTU-1": Layer.CLEARANCE_NONE,

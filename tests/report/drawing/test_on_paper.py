@@ -12,6 +12,7 @@ from fixtures.pages import page_of
 from fixtures.plan_pictures import SMALL
 from fixtures.project_parts import HEAD, sides
 from fixtures.projects import FOOT
+from fixtures.spaces import spaced
 from report.drawing.layers import Layer
 from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.paper_items import TYPE_PT, Circle, Lines, Mark, Outline, Text, width_in
@@ -130,6 +131,7 @@ def test_the_legend_ends_within_the_sheet(done):
 def test_large_roofs_have_leaders_and_small_plans_sizes_and_numbers():
     assert all(leaders(printed_plan(PLANS[name]()).plan) for name in ("thirty", "example"))
     shown = [text.words for text in words_of(printed_plan(assessments.shipped("example")).plan)]
+    shown = spaced(shown)
     assert {"120 × 92 ft", "120 × 102 ft", "150 × 150 ft"} <= set(shown)
     tables = page_of(thirty(), "plan").tables
     (arrays,) = (table for table in tables if table.headings[:2] == ("Arrays", "Size [ft]"))
@@ -179,6 +181,7 @@ def test_the_page_has_each_number_once_in_its_gap_and_equal_gaps_dimensioned_onc
 def test_equal_gaps_of_several_kinds_are_dimensioned_once_with_their_numbers():
     """Of the example: 96 in from A1 to A2, an array, and to NORTH, a roof edge."""
     shown = [text.words for text in words_of(printed_plan(assessments.shipped("example")).plan)]
+    shown = spaced(shown)
     assert shown.count("96.0 in: No. 1 and 3") == 1
     assert not [words for words in shown if "typ." in words]
 
@@ -213,7 +216,7 @@ def test_no_label_covers_an_object_that_is_smaller_than_a_name():
 
 @pytest.mark.quick
 def test_equal_gaps_are_dimensioned_once_and_those_not_satisfied_marked():
-    shown = [text.words for text in words_of(printed_plan(thirty()).plan)]
+    shown = [spaced(text.words) for text in words_of(printed_plan(thirty()).plan)]
     assert shown.count("48.0 in typ. of 49") == 1
     assert shown.count("192.0 in typ. of 6") == 1
     assert shown.count("72.0 in") == 1

@@ -16,6 +16,7 @@ from matplotlib.text import Text
 from fixtures import assessments, projects
 from fixtures.marks import by_day
 from fixtures.plan_pictures import SMALL, roof_plan
+from fixtures.spaces import spaced
 from fixtures.study_workbooks import limit_state
 from report.assessment.support.response_spectra import spectra
 from report.drawing.sheet import LETTER
@@ -84,9 +85,9 @@ def test_envelopes_histories_and_comparisons_keep_what_they_show(assessment):
     assert (u_few.min(), u_few.max()) == (u.min(), u.max())
     assert (t_few[0], t_few[-1]) == (t[0], t[-1])
     assert np.all(np.diff(t_few) > 0)
-    printed = words(histories(assessment.arrays[1]))
+    printed = spaced(words(histories(assessment.arrays[1])))
     assert sum(bool(re.fullmatch(r"[\d.]+ in \(\d+ mm\)", text)) for text in printed) == 3
-    printed = words(histories(assessment.arrays[1], us_first=False))
+    printed = spaced(words(histories(assessment.arrays[1], us_first=False)))
     assert sum(bool(re.fullmatch(r"\d+ mm \([\d.]+ in\)", text)) for text in printed) == 3
     printed = words(figures.comparison(projects.unpermitted().alike, True))
     assert "no design displacement" in printed

@@ -16,6 +16,7 @@ from fixtures.pages import page_of
 from fixtures.plan_pictures import SMALL, roof_plan
 from fixtures.project_parts import NO_SIDES
 from fixtures.projects import FOOT
+from fixtures.spaces import spaced
 from report.assessment.support.plan_gaps import keep_clear
 from report.drawing.on_paper import plan_on_paper, printed_plan
 from report.drawing.paper_items import TYPE_PT, Text, width_in
@@ -137,14 +138,14 @@ def test_arrays_objects_and_clearances_are_drawn_marked_and_named(done):
     found = words(roof_plan(done, LETTER))
     for name in ("A1", "A2", "A3", "RTU-1", "T-1", "1", "2", "3", "4", "5", "x [ft]"):
         assert name in found
-    assert "N edge: parapet 30.0 in (762 mm)" in found
+    assert "N edge: parapet 30.0 in (762 mm)" in spaced(found)
     assert "S edge: no parapet" in found
     (table,) = (table for table in page_of(done, "plan").tables if table.title.startswith("Sched"))
     for gap, row in zip(done.clearances, table.rows, strict=True):
         values = gap.required_m, gap.clearance.provided_m
         heads = "Req’d [in]", "Prov’d [in]"
         assert [row[head] for head in heads] == [f"{v / INCH_M:.1f}" for v in values]
-        assert any(text.startswith(row["Prov’d [in]"] + " in") for text in found)
+        assert any(spaced(text).startswith(row["Prov’d [in]"] + " in") for text in found)
     marked = sum(not gap.ok for gap in done.clearances)
     assert marked == 1
     for size in SIZES:
@@ -253,8 +254,8 @@ def test_scales_are_those_of_an_engineers_ruler_or_round(inches, us_first, name)
 )
 def test_keep_clear_is_never_rounded_down(inches, us, si):
     inches = 40.0 + 1e-6 if inches == 40.0 else inches
-    assert keep_clear(inches * INCH_M, True) == f"{us} in"
-    assert keep_clear(inches * INCH_M, False) == f"{si} mm"
+    assert spaced(keep_clear(inches * INCH_M, True)) == f"{us} in"
+    assert spaced(keep_clear(inches * INCH_M, False)) == f"{si} mm"
 
 
 @pytest.mark.quick

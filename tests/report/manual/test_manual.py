@@ -12,6 +12,7 @@ import pytest
 
 from fixtures import commands, pages
 from fixtures.paths import RECORDS
+from fixtures.spaces import spaced
 from fixtures.verify_run import only
 from report.manual.check_sections import summary
 from report.manual.manual_files import verification_csv
@@ -118,7 +119,7 @@ def test_a_beam_is_found_again_from_its_own_floors():
 
 
 def test_predictions_are_what_their_parts_say_to_the_ground_itself(made, recorded, comparison):
-    assert [prediction.name for prediction in recorded.predictions] == [
+    assert spaced([prediction.name for prediction in recorded.predictions]) == [
         "fitted to the 12th and 24th floors", "fitted to the 12th floor", BY_HEIGHT,
         "first fit, but with 5% damping", "ground motion applied at the roof, no building",
     ]  # fmt: skip
@@ -208,7 +209,7 @@ def test_the_manual_says_how_far_off_predictions_are_or_that_none_was_compared(
     assert "One building in one earthquake does not establish a margin for another" in said
     cells = [cell for table in said.tables[-3:] for row in table.cells for cell in row]
     for prediction in recorded.predictions:
-        assert cells.count(prediction.name[0].upper() + prediction.name[1:]) == 3
+        assert cells.count(spaced(prediction.name[0].upper() + prediction.name[1:])) == 3
         for ratio, scatter in zip(prediction.band_ratios, prediction.band_scatters, strict=True):
             assert f"{ratio:.2f} ({100 * scatter:.0f}%)" in cells
         for prd, true in zip(prediction.prd_m, recorded.prd_m, strict=True):
@@ -302,7 +303,7 @@ def test_every_method_stands_with_its_errors_against_50_digits():
     assert len(table.cells) == errors["method"].nunique()
     (linear,) = [row for row in table.cells if row[0] == "Linear acceleration"]
     assert list(linear[1:]) == [
-        percent(own["error [%]"].agg(of))
+        spaced(percent(own["error [%]"].agg(of)))
         for _, own in errors[errors["method"] == "linear"].groupby("motions", sort=False)
         for of in ("median", "max")
     ]

@@ -10,6 +10,7 @@ import pytest
 from fixtures import projects
 from fixtures.marks import by_day
 from fixtures.project_parts import motion
+from fixtures.spaces import spaced
 from fixtures.workbooks import cell_address, make, problems, read_workbook
 from report.motions.components import FACTOR, Components, processing_of, spikes
 from report.motions.history import ac156, first_period_s, shake, targets
@@ -64,7 +65,7 @@ def test_a_roof_motion_is_as_recorded_or_scaled_to_its_peak_with_its_drift_and_u
     assert (prepared.done, prepared.scaling, prepared.roof) == ("as recorded", "as recorded", {})
     motion, prepared = shaken(records(), scaling="PPA", scale_value=1.25)
     assert motion.scale * np.abs(motion.ax_mps2).max() == pytest.approx(1.25 * G, rel=1e-12)
-    assert prepared.scaling == "PPA 1.25 g"
+    assert spaced(prepared.scaling) == "PPA 1.25 g"
     assert prepared.scaled["vertical"].a_mps2 == pytest.approx(motion.scale * motion.az_mps2)
     drifting = {f: replace(r, a_mps2=r.a_mps2 + 0.02) for f, r in records().items()}
     _, prepared = shaken(drifting, scaling="factor", scale_value=2.0)
@@ -94,7 +95,7 @@ def test_a_motion_scaled_to_the_target_matches_it_over_the_scaling_periods(start
     motion, prepared = shaken(records(), data, scaling="target spectrum")
     target = projects.assessed(projects.book(shaking=(motion,) * 3)).targets.roof
     assert log_ratio(motion, target, np.geomspace(start, end, 400)) == pytest.approx(0, abs=2e-3)
-    assert prepared.scaling == f"target, {start:g} to {end:g} s"
+    assert spaced(prepared.scaling) == f"target, {start:g} to {end:g} s"
 
 
 @pytest.mark.quick

@@ -13,6 +13,7 @@ from fixtures import assessments, projects
 from fixtures.cells import cell
 from fixtures.marks import by_day
 from fixtures.pages import IDS, page_of
+from fixtures.spaces import spaced
 from report.assessment.assess import reassess
 from report.assessment.checks.sentence import alike
 from report.assessment.design.verdict import Verdict
@@ -97,7 +98,9 @@ def test_the_verdicts_of_requirements(made):
         (row["Item"], row["Requirement"], row["Verdict"])
         for row in rows_of(book["Requirements"], 4)
     ]
-    assert sheet == [(c.subject or "Project", c.title, c.verdict.value) for c in alike(checks)]
+    assert sheet == [
+        (c.subject or "Project", spaced(c.title), c.verdict.value) for c in alike(checks)
+    ]
     # In the PDF those that ask the same are one; clearances and motions have tables of their own.
     checks = alike(check for check in package.assessment.checks if check.id not in APART)
     said = [(c.subject or "project", plain(c.title), c.verdict.value) for c in checks]
@@ -149,7 +152,7 @@ def test_no_page_rounds_the_design_displacement_down(example):
 
 FACTOR = {"provision": "separation_fixed", "value": 0.5, "reason": "Agreed on 2026-02-10"}
 MINIMUM = {"provision": "prescriptive_factor_in", "value": 40.0, "reason": "Agreed on 2026-02-11"}
-LENGTH = r"[\d.,]+ in \([\d.,]+ mm\)"
+LENGTH = r"[\d.,]+\sin \([\d.,]+\smm\)"
 
 
 @pytest.fixture(scope="module")
@@ -176,7 +179,7 @@ def test_lowered_values_are_marked_where_they_govern_on_the_plan_and_in_results_
         assert all(re.fullmatch(r"[\d.]+‡", row[f"{name} [in]"]) for name in ("Δ", "Keep clear"))
     assert all(re.fullmatch(r"[\d.]+‡", row["Req’d [in]"]) for row in schedule.rows)
     said = " ".join(text.words for text in plan_drawing(done).texts)
-    assert re.search(rf"A1 {LENGTH} \(overridden\) \d+ in \(overridden\)", said)
+    assert re.search(rf"A1 {LENGTH} \(overridden\) \d+\sin \(overridden\)", said)
     assert "‡" not in said
     found = json.loads(results_json(done, assessments.evidence(done)))
     assert all(item["design_is_overridden"] for item in found["arrays"])

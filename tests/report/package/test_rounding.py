@@ -11,6 +11,7 @@ import pytest
 from fixtures import assessments, projects
 from fixtures.marks import by_day
 from fixtures.pages import page_of
+from fixtures.spaces import spaced
 from report.assessment.checks.sentence import texts as check_texts
 from report.assessment.design.clearances import beside
 from report.assessment.support.response_spectra import spectra
@@ -166,7 +167,7 @@ def test_what_is_not_enough_reads_as_less_in_both_units_in_every_output():
     (short, *_) = done.clearances
     had = pair(short.clearance.provided_m, Quantity.SIZE, "down", us_first=True)
     needed = pair(short.required_m, Quantity.SIZE, "up", us_first=True)
-    assert f"{had}. Required: at least {needed}" in said
+    assert f"{had}. Required: at least {needed}" in spaced(said)
     rows = {(row.id, row.subject): row for row in done.checks}
     for id, subject in (
         ("electrical_slack", "A1"), ("interconnection", "A1"), ("roof_capacity", "A1"),

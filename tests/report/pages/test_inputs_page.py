@@ -8,6 +8,7 @@ from fixtures import assessments, projects
 from fixtures.assessments import TESTS as REPORT
 from fixtures.pages import page_of
 from fixtures.project_parts import LB
+from fixtures.spaces import spaced
 from report.assessment.checks.friction_evidence import of_tests
 from report.assessment.design.tested_friction import tested as series_of
 from report.assessment.design.verdict import Verdict
@@ -80,14 +81,14 @@ def test_a_row_is_satisfied_by_what_its_report_and_its_runs_have(
     one = row(title, friction_tests=REPORT | report, friction_runs=given)
     assert one.is_satisfied is is_satisfied
     assert one.verdict is (Verdict.OK if is_satisfied else Verdict.CONDITION)
-    assert found in one.found
+    assert found in spaced(one.found)
 
 
 @pytest.mark.quick
 def test_the_row_has_the_units_of_the_project():
     si = projects.project().project.model_dump() | {"units_first": "SI"}
     found = row(REPEATS, friction_runs=runs(), project=si).found
-    assert found == "dry and wet: 3 runs at 25.4 mm/s (1.00 in/s)"
+    assert spaced(found) == "dry and wet: 3 runs at 25.4 mm/s (1.00 in/s)"
 
 
 def test_a_law_is_fitted_to_four_velocities_and_none_to_one_coefficient():
@@ -129,7 +130,7 @@ def test_the_section_states_its_dimensions(slope):
         "c = 9.0 in (229 mm)", "b = 40.0 in (1016 mm)", "W = 42000 lb (186.83 kN)", "μ = 0.45",
         f"θ = {slope:.2f}°", "N", "μ N", "W + m a", "−m a",
     ):  # fmt: skip
-        assert text in texts
+        assert text in spaced(texts)
     assert drawn_slope_deg(array) == pytest.approx(min(max(slope, 8.0), 15.0))
 
 

@@ -218,7 +218,7 @@ def test_the_smallest_margin_is_of_a_satisfied_clearance_and_a_drift_over_its_li
     first = replace(book.shaking.prepared[0], measures={"horizontal": drifting})
     (row,) = of_records(book.sheet.project, [first])
     both = texts(row, us_first=True)
-    numbers = [float(re.search(r"\(([\d.]+) mm\)", text)[1]) for text in both]
+    numbers = [float(re.search(r"\(([\d.]+)\smm\)", text)[1]) for text in both]
     assert numbers[0] > numbers[1]
 
 

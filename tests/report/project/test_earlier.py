@@ -136,7 +136,7 @@ def test_displacement_by_direction_of_an_earlier_workbook_is_refused_with_its_ce
     if renamed:  # the cell has its name still
         edit(path, rename)
     ((_, problem),) = read(path).problems
-    assert str(problem).startswith(f"{where}: displacement by direction is 'Yes'; answer No: ")
+    assert str(problem).startswith(f"{where}: displacement by direction is 'Yes'; select No: ")
 
 
 def test_a_model_that_an_earlier_workbook_requests_is_refused_with_its_cell(tmp_path):

@@ -9,6 +9,7 @@ from pydantic import TypeAdapter, ValidationError
 from fixtures import project_parts
 from fixtures.marks import by_day
 from fixtures.project_parts import SITE
+from fixtures.spaces import spaced
 from fixtures.workbooks import (
     cell_address,
     make,
@@ -151,7 +152,7 @@ def faults(**changes):
 def test_an_inconsistency_is_named_at_its_cell(changes, field, text):
     ((place, said),) = faults(**changes)
     assert place == field
-    assert text in said
+    assert text in spaced(said)
 
 
 @pytest.mark.parametrize(

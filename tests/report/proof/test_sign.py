@@ -367,7 +367,7 @@ def test_what_was_painted_over_before_it_was_signed_is_never_the_same(made, sign
 def test_what_cannot_be_signed_is_an_input_error_and_a_rewritten_file_can(sign, signed, data):
     done, content = sign(password="other")
     assert (done.exit_code, content) == (2, b"")
-    assert "another password" in done.output
+    assert "wrong password" in done.output
     done, content = sign("--time-stamp", "http://127.0.0.1:9")
     assert (done.exit_code, content) == (2, b""), done.output
     done, _ = sign(content=signed[1])
@@ -394,7 +394,7 @@ def test_the_package_is_not_overwritten_by_the_one_that_is_signed(tmp_path):
     package = tmp_path / "calc-package.pdf"
     package.write_bytes(b"as it was")
     words = ("sign", package, "--p12", package, "--password", "x", "--out", package)
-    assert "choose another --out" in commands.errors_of(*words)
+    assert "use another --out" in commands.errors_of(*words)
     assert package.read_bytes() == b"as it was"
 
 

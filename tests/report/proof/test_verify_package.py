@@ -231,7 +231,7 @@ def test_a_pdf_without_the_input_is_no_package(tmp_path):
     with pikepdf.new() as pdf:
         pdf.add_blank_page()
         pdf.save(path)
-    assert "holds no roofslip.json" in commands.output_of("verify-package", path, exit_code=1)
+    assert "contains no roofslip.json" in commands.output_of("verify-package", path, exit_code=1)
 
 
 @pytest.mark.parametrize("name", by_day(["roofslip.json", "results.json"], 1))

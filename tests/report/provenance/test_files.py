@@ -75,12 +75,12 @@ def test_workbook_records_and_a_document_are_attached_once_as_they_lie(job, tmp_
 def test_what_changed_meanwhile_is_an_input_error_and_changes_the_hash(job, tmp_path, monkeypatch):
     sheet, shaking = job
     changed = replace(shaking.records[0], sha256="0" * 64)
-    with pytest.raises(InputError, match=r"records/RM1-x\.csv: changed while the report ran"):
+    with pytest.raises(InputError, match=r"RM1-x\.csv: changed while the report was running"):
         sources(sheet, replace(shaking, records=(changed, *shaking.records)))
     given = with_documents(sheet, tmp_path, "letter.pdf", "letter.pdf")
     other = replace(given.documents[0], sha256=sheet.sha256)
     given = replace(given, documents=(other, given.documents[1]))
-    with pytest.raises(InputError, match=r"letter\.pdf: changed while the report ran"):
+    with pytest.raises(InputError, match=r"letter\.pdf: changed while the report was running"):
         sources(given, replace(shaking, records=()))
     sheet, shaking = job
     first, second, *others = shaking.records

@@ -6,6 +6,7 @@ import math
 import pytest
 
 from fixtures import assessments, project_parts, projects
+from fixtures.spaces import spaced
 from report.assessment.causes import came_to
 from report.assessment.checks.sentence import sentence
 from report.project.model.choices import Direction
@@ -43,12 +44,20 @@ def test_json_has_the_assessment_in_si_with_models_and_peaks(document):
         assert peaks == [motion.peak_m(direction) for motion in item.motions]
     found, solution = array["runs"][0], item.motions[0].runs[0].solution
     assert (found["rung"], found["model"]) == (3, "two axes with vertical")
-    assert (found["reason"], found["error_m"]) == (solution.reason, solution.result.error_m)
+    assert (found["reason"], found["error_m"]) == (spaced(solution.reason), solution.result.error_m)
     assert found["across_m"] == solution.result.across_m
     assert found["next_effect_m"] is None
     gap = document["clearances"][3]
     assert (gap["governing_array"], gap["design_m"]) == (item.id, item.design_m)
     check_units(document)
+
+
+def test_quantities_have_ordinary_spaces_and_a_name_stays_as_it_was_typed():
+    head = project_parts.HEAD | {"name": "Hall\u00a0A"}
+    assessment = assessments.package(project=head).assessment
+    text = results_json(assessment, assessments.evidence(assessment)).decode()
+    assert json.loads(text)["input"]["project"]["name"] == head["name"]
+    assert text.count("\u00a0") == 1
 
 
 def test_json_has_smaller_events_links_and_prescriptive_values():
@@ -140,7 +149,9 @@ def test_json_has_what_would_do_margins_angles_and_neighbors(supported):
     assessment, evidence, document = supported
     rows = document["remedies"]
     found = evidence.remedies
-    assert [row["change"] for row in rows[: len(found.own)]] == [each.words for each in found.own]
+    assert [row["change"] for row in rows[: len(found.own)]] == [
+        spaced(each.words) for each in found.own
+    ]
     for row, each in zip(rows, found.own, strict=False):
         assert row["verdict"] == each.done.verdict
         assert row["quantities"] == [each.kind]

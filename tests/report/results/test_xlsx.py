@@ -9,6 +9,7 @@ from xlsxwriter.workbook import Workbook
 from fixtures import assessments, project_parts, projects
 from fixtures.cells import address, cell
 from fixtures.libreoffice import recalculated
+from fixtures.spaces import spaced
 from fixtures.workbooks import formula_cells
 from report.assessment.checks.sentence import alike, found_and_limit
 from report.assessment.support.response_spectra import spectra
@@ -219,7 +220,7 @@ def test_every_requirement_and_limit_and_every_verdict_is_in_the_workbook(usual)
         (c.subject or "Project", c.title, *found_and_limit(c, True), c.clause, c.verdict)
         for c in alike(c for c in assessment.checks if c.id != "clearance")  # they have a sheet
     ]
-    assert rows == wanted
+    assert rows == spaced(wanted)
 
 
 @pytest.mark.quick
@@ -229,7 +230,9 @@ def test_the_summary_has_every_check_that_is_open_and_no_kind_twice(usual):
     heads = [row[0] for row in rows]
     last = rows[heads.index("Not satisfied") + 1 :]
     wanted = alike(check for check in assessment.checks if check.is_open)
-    assert sorted((row[0], row[6]) for row in last) == sorted((c.title, c.verdict) for c in wanted)
+    assert sorted((row[0], row[6]) for row in last) == spaced(
+        sorted((c.title, c.verdict) for c in wanted)
+    )
     assert all(row[4] and row[5] for row in last if row[6] == "Condition")
     governing = rows[heads.index("Largest of each check") + 1 : heads.index("Not satisfied")]
     assert len({row[0] for row in governing}) == len(governing)

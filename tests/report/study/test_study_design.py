@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from fixtures import pages, projects
 from fixtures.marks import by_day
+from fixtures.spaces import spaced
 from fixtures.study_workbooks import sheet_rows, study_input, with_study, write
 from report.assessment.design.routes import Route
 from report.study.allowed_answers import allowed
@@ -205,7 +206,7 @@ def test_printed_and_exported_answers_are_on_the_safe_side(results, values, allo
         values = found.largest_slopes(0, name, allowed_m)
         assert np.array_equal(values, np.array(printed_values), equal_nan=True)
     values = found.largest_slopes(0, found.plan.design_rule.name, allowed_m)
-    lines = headline(with_study(found, allowed_m=allowed_m))[1 : 1 + len(axes.mus)]
+    lines = spaced(headline(with_study(found, allowed_m=allowed_m))[1 : 1 + len(axes.mus)])
     for line, values_at in zip(lines, values[:, len(levels) // 2], strict=True):
         number = re.search(r"largest slope (?:≥ )?([\d.]+|none)", line)[1]
         assert reading(number) == pytest.approx(values_at, abs=0.0, nan_ok=True)
@@ -216,7 +217,9 @@ def test_printed_and_exported_answers_are_on_the_safe_side(results, values, allo
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @over(value_m=st.floats(0.0, 20.0))
 def test_design_displacements_and_clearances_print_rounded_up(results, value_m):
-    inch, mm = map(float, re.match(r"([\d.]+) in \((\d+) mm\)", both(results, value_m)).groups())
+    inch, mm = map(
+        float, re.match(r"([\d.]+) in \((\d+) mm\)", spaced(both(results, value_m))).groups()
+    )
     assert design_length(results, value_m) == f"{inch:.1f}"
     assert 0.0 <= inch - value_m / 0.0254 + 1e-6 < 0.1001
     assert 0.0 <= mm - value_m / 1e-3 + 1e-6 < 1.0001
@@ -229,7 +232,7 @@ def test_chances_and_medians_are_rounded_to_the_safe_side(tmp_path):
     for value, text in ((1.0, "100%"), (0.9961, "100%"), (0.1441, "15%"), (0.00123, "0.13%")):
         chance = dataclasses.replace(array.exceedances[0], value=value, low=value, high=value)
         one = dataclasses.replace(array, exceedances=(chance,))
-        line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
+        line = spaced(headline(dataclasses.replace(found, arrays=(one,)))[-1])
         assert f": {text} (" in line
     for theta, beta in ((1.2345, 0.0561), (0.99999, 0.2), (12.39, 1.011)):
         state = array.states[2]
@@ -237,7 +240,7 @@ def test_chances_and_medians_are_rounded_to_the_safe_side(tmp_path):
         one = dataclasses.replace(
             array, exceedances=(), states=(dataclasses.replace(state, fragility=known),)
         )
-        line = headline(dataclasses.replace(found, arrays=(one,)))[-1]
+        line = spaced(headline(dataclasses.replace(found, arrays=(one,)))[-1])
         printed_theta, spread = map(float, re.search(r" ([\d.]+) g, beta ([\d.]+)", line).groups())
         assert 0.0 <= theta - printed_theta < 0.1
         assert 0.0 <= spread - beta < 0.1

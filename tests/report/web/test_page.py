@@ -22,6 +22,7 @@ from fixtures.browser import (
 )
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
+from fixtures.spaces import spaced
 
 EXAMPLE = ROOT / "projects" / "example"
 
@@ -153,10 +154,11 @@ def test_no_control_moves_with_the_verdict_and_the_plan_is_on_the_first_screen(p
 def test_the_plan_tells_what_is_under_the_pointer_selects_with_the_table_and_zooms(page):
     said = page.locator("#plan-said")
     page.hover("#plan-drawing [data-key='#5']")
-    assert said.inner_text().startswith("Clearance 5, A3 to PV-OLD, upslope: provided 72.0 in (")
+    text = spaced(said.inner_text())
+    assert text.startswith("Clearance 5, A3 to PV-OLD, upslope: provided 72.0 in (")
     assert said.inner_text().endswith(", D/C 0.66")
     page.hover("#plan-drawing [data-key=A3]")
-    assert re.fullmatch(r"A3: Δ 47.4 in .*, D/C 0.79 to RTU-2", said.inner_text())
+    assert re.fullmatch(r"A3: Δ 47.4\sin .*, D/C 0.79 to RTU-2", said.inner_text())
     page.click("#plan-drawing [data-key='#5']")
     assert page.locator("#clearances .is-picked").inner_text().startswith("5")
     page.locator("#clearances [data-name='#2']").press("Enter")

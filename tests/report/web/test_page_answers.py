@@ -5,6 +5,7 @@ import pytest
 from fixtures.marks import by_day
 from fixtures.page_parts import elements
 from fixtures.paths import ROOT
+from fixtures.spaces import spaced
 from report.assessment.assess import Extent, assess, reassess
 from report.assessment.assessment import Assessment
 from report.assessment.checks.sentence import words
@@ -43,7 +44,7 @@ def test_pairs_of_the_plan_without_a_clearance_are_rows_below_those_of_the_workb
     assert names[1][1] == "NG" != names[0][1]
     # Within reach, and farther apart than any separation.
     east = next(row for row in table["rows"] if row[1]["text"] == "A3 to EAST")
-    assert [cell["text"] for cell in east[2:4]] == ["120.0 in", "93.4 in"]
+    assert spaced([cell["text"] for cell in east[2:4]]) == ["120.0 in", "93.4 in"]
     assert len(names) == len(missing) + 2
 
 
@@ -140,7 +141,7 @@ def test_the_headline_is_the_check_that_governs_with_its_ratio_and_what_to_do_ne
     assert shown["next"].startswith("Provide wiring slack")
     whole = reassess(assessed, assessed.project, extent=Extent.LESS_FRICTION)
     enough = answer(whole, is_provisional=False)["next"]
-    assert enough.startswith("Move A2 44.6 in (1133 mm) south, ")
+    assert spaced(enough).startswith("Move A2 44.6 in (1133 mm) south, ")
     moving = answer(assessed, is_provisional=True)
     assert moving["worst"] == shown["worst"] | {"text": "Clearance A1 to A2"}
     assert moving["next"] == ""

@@ -8,6 +8,7 @@ import pytest
 
 from fixtures import project_parts, projects
 from fixtures.browser import called, quiet_page, serve_scripts
+from fixtures.spaces import spaced
 from report.text.units import Quantity, measured, number, pair
 from report.web import views
 
@@ -84,7 +85,7 @@ def test_a_reading_is_written_as_in_the_package(page):
     values = [*np.random.default_rng(5).normal(size=200).tolist(), 0.0, -1e-9, -0.04, 123.4]
     body = "return [null, ...g.values].map((v) => m.reading(v, g.units));"
     none, *found = called(page, "reading", body, {"values": values, "units": units})
-    assert found == [pair(value, Quantity.DISPLACEMENT) for value in values]
+    assert found == [spaced(pair(value, Quantity.DISPLACEMENT)) for value in values]
     assert none == number(math.nan, 1)
     ticks = "return [[-0.5, 0.1], [20, 10], [0, 2]].map((both) => m.tickText(...both));"
     assert called(page, "reading", ticks) == ["−0.5", "20", "0"]
@@ -292,7 +293,9 @@ def test_a_contour_is_read_by_keys_at_computed_values_and_by_pointer_between_the
     mounted(page, "contour", data)
     row = int(np.argmin(abs(np.array(data["slopes_deg"]) - data["here"]["slope_deg"])))
     column = int(np.argmin(abs(np.array(data["mus"]) - data["here"]["mu"])))
-    here, beside = (pair(data["prd_m"][row + k][column + k], Quantity.DISPLACEMENT) for k in (0, 1))
+    here, beside = (
+        spaced(pair(data["prd_m"][row + k][column + k], Quantity.DISPLACEMENT)) for k in (0, 1)
+    )
     reading = ".contour-reading output"
     assert text(page, reading) == f"μ 0.450, slope 2.00 deg: mean PRD {here}, computed"
     press(page, ".contour", "ArrowRight", "ArrowUp")

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import solver
+from fixtures.spaces import spaced
 from solver.building.roof import (
     FINENESS,
     MOST_STEPS,
@@ -241,7 +242,7 @@ def test_given_periods_and_modes_are_kept_up_to_the_stories():
     np.testing.assert_allclose(building.periods_s[:4], [1.0, 0.4, 0.4 * 3 / 5, 0.4 * 3 / 7])
     assert building.damping[:4].tolist() == [0.03, 0.05, 0.08, 0.08]
     assert building.periods_s.size == BEAM_MODES
-    assert "period 1, 0.4 s; damping 3, 5, 8% of critical" in building.words
+    assert "period 1, 0.4 s; damping 3, 5, 8% of critical" in spaced(building.words)
     building = building_of_periods([1.0, 0.4, 0.2], damping=[0.03, 0.05, 0.06], stories=2)
     assert building.periods_s.tolist() == [1.0, 0.4]
     assert building.damping.tolist() == [0.03, 0.05]

@@ -11,6 +11,7 @@ import pytest
 
 from fixtures.errors import input_problems
 from fixtures.paths import SAMPLES
+from fixtures.spaces import spaced
 from solver.formats import read_motion_file
 
 pytestmark = pytest.mark.quick
@@ -149,7 +150,7 @@ problems_of = partial(input_problems, read_motion_file)
 def test_a_file_gives_its_channels_step_samples_and_notes(name):
     held, motion_file = HELD[name], read_motion_file(SAMPLES / name)
     assert motion_file.format == held.format
-    assert motion_file.notes == held.notes
+    assert spaced(motion_file.notes) == held.notes
     assert [record.name for record in motion_file.channels] == list(held.channels)
     for record in motion_file.channels:
         assert record.dt_s == held.dt_s
@@ -174,7 +175,7 @@ LEFT_OVER = " 1.1100E-1 9.5000E+1 1.1200E-1 9.4000E+1 1.1300E-1 9.3000E+1 1.1400
 def test_film_may_have_a_line_more_than_stated_and_a_time_twice(altered, changes, note):
     motion_file = read_motion_file(altered("smc-uneven.smc", *changes))
     assert motion_file.channel().a_mps2 == pytest.approx(UNEVEN / 10, abs=1e-13)
-    assert motion_file.notes == (note, *HELD["smc-uneven.smc"].notes)
+    assert spaced(motion_file.notes) == (note, *HELD["smc-uneven.smc"].notes)
 
 
 START = "2003-01-02 03:04:05"
@@ -238,7 +239,7 @@ READ_OTHERWISE = [
 @pytest.mark.parametrize(("name", "changes", "factor", "more"), READ_OTHERWISE)
 def test_what_is_written_otherwise_holds_the_same(altered, name, changes, factor, more):
     held, motion_file = HELD[name], read_motion_file(altered(name, *changes))
-    assert motion_file.notes == held.notes + more
+    assert spaced(motion_file.notes) == held.notes + more
     for record in motion_file.channels:
         expected = factor * held.channels[record.name]
         assert record.a_mps2 == pytest.approx(expected, **held.error)

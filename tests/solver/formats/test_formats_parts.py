@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fixtures.errors import input_problems
+from fixtures.spaces import spaced
 from solver.errors import InputError
 from solver.formats import read_motion_file
 from solver.formats.channels import motion_file, offset_notes, peak_notes
@@ -87,7 +88,7 @@ def test_stated_peaks_and_offsets_are_told():
     a = np.array([0.0, -0.5 * G, 0.2 * G])
     assert peak_notes(SOURCE, 3, -0.5 * G, a) == ()
     assert peak_notes(SOURCE, 3, 0.504 * G, a) == ()
-    assert peak_notes(SOURCE, 3, 0.6 * G, a) == (
+    assert spaced(peak_notes(SOURCE, 3, 0.6 * G, a)) == (
         "the header states a peak of 0.6 g, the values reach 0.5 g",
     )
     for unknown in (0.0, math.nan, math.inf):
@@ -97,7 +98,7 @@ def test_stated_peaks_and_offsets_are_told():
             peak_notes(SOURCE, 3, stated, a)
     assert offset_notes(np.array([1.0, -1.0, 0.0])) == ()
     assert offset_notes(np.zeros(5)) == ()
-    assert offset_notes(np.array([0.1 * G, -0.05 * G])) == (
+    assert spaced(offset_notes(np.array([0.1 * G, -0.05 * G]))) == (
         "uncorrected: the mean is 0.025 g, 25% of the peak; it is not removed",
     )
 
@@ -135,7 +136,7 @@ def test_codes_beside_shaking_and_gravity_are_told(file):
         assert "code for missing data" in problem
     rows = "".join(f"{k / 100},{0.1 * (-1) ** k},{1 - 0.1 * (-1) ** k}\n" for k in range(50))
     path = file(f"t_s,X_g,Z_g\n{rows}")
-    assert read_motion_file(path).notes == (
+    assert spaced(read_motion_file(path).notes) == (
         "Z: the mean is about 1 g because the record includes gravity",
     )
 

@@ -7,6 +7,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from fixtures.errors import input_problems
+from fixtures.spaces import spaced
 from solver.formats import read_motion_file, read_record
 
 pytestmark = pytest.mark.quick
@@ -104,7 +105,7 @@ def test_gravity_raw_counts_and_values_across_lines_are_read_as_told(file):
     assert peer.a_mps2 == pytest.approx(expected, rel=1e-15)
     rows = "0,0.58,0.01,0.79\n1,0.62,-0.01,0.78\n"
     motion_file = read_motion_file(file(f"t_s,x_g,y_g,z_g\n{rows}"))
-    assert motion_file.notes == (
+    assert spaced(motion_file.notes) == (
         "the means of the three add up to about 1 g because the records include gravity",
     )
     for heading in ("time_s,x_counts", "t,x"):

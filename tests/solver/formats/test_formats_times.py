@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fixtures.errors import input_problems
+from fixtures.spaces import spaced
 from solver.formats import read_motion_file, read_record
 from solver.formats.source import Source
 from solver.formats.times import LOSS, is_even, sampled
@@ -17,7 +18,7 @@ SOURCE = Source(name="a.csv", lines=[], units="g", dt_s=float("nan"))
 
 def share_said(note):
     """By which part of the peak a sample is moved, as a note says."""
-    return float(note.split("more than ")[1].split("%")[0]) / 100.0
+    return float(spaced(note).split("more than ")[1].split("%")[0]) / 100.0
 
 
 class TestEvenTimes:
@@ -78,7 +79,7 @@ class TestUnevenTimes:
         assert dt_s == 0.01
         expected = [0.0, 0.5, 1.0, -2.0, -1.375, -0.75, -0.125, 0.5, 3.0, 0.0]
         assert columns[0].tolist() == pytest.approx(expected, abs=1e-12)
-        assert notes == (
+        assert spaced(notes) == (
             "times are uneven, steps of 0.01 to 0.04 s: resampled at 0.01 s by linear"
             " interpolation, which changes no sample",
         )
@@ -119,7 +120,7 @@ class TestUnevenTimes:
         dt_s, a = motion_file.channel().dt_s, motion_file.channel().a_mps2
         assert (dt_s, len(a)) == (0.01, 1000)
         assert a[gap] == pytest.approx((a[gap - 1] + a[gap + 1]) / 2.0)
-        assert "times are uneven, steps of 0.01 to 0.02 s" in motion_file.notes[0]
+        assert "times are uneven, steps of 0.01 to 0.02 s" in spaced(motion_file.notes[0])
 
     def test_gaps_are_told_and_drifting_steps_and_all_columns_resampled(self, file):
         t = [i / 100 + 2.0 * (i // 20) for i in range(120)]

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fixtures.errors import input_problems
+from fixtures.spaces import spaced
 from solver.formats import read_motion_file, read_record
 
 pytestmark = pytest.mark.quick
@@ -111,7 +112,7 @@ def test_a_heading_gives_step_unit_components_and_start(file, form):
     motion_file = read_motion_file(file(content))
     assert (motion_file.format, str(motion_file.start)) == (form, start)
     offset = ("uncorrected: the mean is 0.00188 g, 2% of the peak; it is not removed",)
-    assert motion_file.notes == (offset if form == "CSMNC" else ())
+    assert spaced(motion_file.notes) == (offset if form == "CSMNC" else ())
     if len(shares) > 1:
         assert [record.name for record in motion_file.channels] == list(shares)
     for record, share in zip(motion_file.channels, shares.values(), strict=True):
@@ -184,7 +185,7 @@ def test_commas_in_values_are_decimal_where_no_value_has_a_point(file, mark):
 
 def test_times_and_line_numbers_beside_values_are_no_values(file):
     timed = columns(1, times=True)
-    for count, due in ((200, "found times beside them"), (400, "times rise in column 1")):
+    for count, due in ((200, "found times next to them"), (400, "times rise in column 1")):
         (problem,) = input_problems(read_motion_file, file(HEAD.format(count) + timed))
         assert due in problem
     cards = "".join(f"{10 * math.sin(k):.3f} {10 * math.cos(k):.3f} {k}\n" for k in range(1, 51))

@@ -12,6 +12,7 @@ from scipy.interpolate import PPoly
 
 from fixtures.blocks import record
 from fixtures.errors import input_problems
+from fixtures.spaces import spaced
 from solver.records.measures import measures, velocity_displacement
 from solver.records.processing import Processing, process, process_together
 from solver.sliding.checked import slide
@@ -283,10 +284,10 @@ def test_components_keep_one_length_and_others_are_named(noise):
 
 def test_words_say_everything_that_is_done_and_problems_at_once():
     assert Processing().words() == "as recorded"
-    assert Processing(
+    assert spaced(Processing(
         from_s=2.0, to_s=30.5, baseline=1, highpass_hz=0.25, lowpass_hz=25.0, order=2, dt_s=0.005,
         pad_s=10.0,
-    ).words() == (
+    ).words()) == (
         "cut to 2 s to 30.5 s; straight line removed; high-pass 0.25 Hz, order 2, zero phase; "
         "low-pass 25 Hz, order 2, zero phase; pads of 12 s before and after are kept; resampled at "
         "0.005 s; 10 s of zeros added at the end"

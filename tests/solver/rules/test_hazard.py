@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from fixtures.spaces import spaced
 from solver.rules.ac156 import ac156_horizontal, ac156_vertical
 from solver.rules.hazard import (
     EDITIONS,
@@ -178,4 +179,4 @@ def test_the_default_is_never_below_d_nor_1_2_and_between_letters_there_is_none(
 def test_sites_that_need_a_hazard_analysis_of_their_own(edition, site_class, s_s, s_1, reason):
     found = site_specific_reason(edition, site_class=site_class, s_s_g=s_s, s_1_g=s_1)
     missing = reason.partition(", ")[2].removesuffix(" not entered")
-    assert (found[0], " and ".join(found[1])) == (reason, missing)
+    assert spaced((found[0], " and ".join(found[1]))) == (reason, missing)
