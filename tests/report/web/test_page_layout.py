@@ -8,7 +8,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from pypdf import PdfReader
 
-from fixtures.browser import at_rest, moved, opened, quiet_page
+from fixtures.browser import COLD_MS, at_rest, moved, opened, quiet_page
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.workbooks import edit, type_into
@@ -88,8 +88,8 @@ def rename(book):
 
 
 def opened_crowded(page, address, folder):
-    page.goto(address, timeout=60_000)
-    page.wait_for_selector("body[data-phase=rest]", timeout=60_000)
+    page.goto(address, timeout=COLD_MS)
+    page.wait_for_selector("body[data-phase=rest]", timeout=COLD_MS)
     page.set_input_files("#folder", folder)
     page.get_by_role("heading", name="Campus").wait_for(timeout=60_000)
     at_rest(page)
