@@ -14,8 +14,8 @@ OPTIONS = block("options", "Options", "Options", Options, "The defaults suit mos
           note="Per rule set: the statistic that the rule set requires for this number of motions."
                f" Mean: {MEAN_WITHOUT_FACTOR_MOTIONS} motions or more."),
     Entry("Peer review", "peer_reviewed", "No", former="Analysis is peer reviewed",
-          note="Yes if the analysis is peer reviewed; the floor then does not apply, once the four"
-          " cells below are filled in."),
+          note="Yes if the analysis is peer reviewed. The floor does not apply once the four cells"
+          " below are filled in."),
     Entry("Peer reviewer", "peer_reviewer", "Reviewer of record",
           note="Required with peer review."),
     Entry("Reviewer's license", "peer_license", "CA S0000",
@@ -54,8 +54,8 @@ CONFIRMATION = block("confirmation", "Options", "Confirmation of the provisions"
     Entry("Confirmed building code", "code", "2022 CBC",
           note="Adopted code with its year, as on the Site worksheet."),
     Entry("Confirmation covered", "covered", "2026-03-01: Site 3f2a91",
-          note="Leave blank. roofslip report enters the date and a short hash of these cells, of"
-          " Site and of the overrides."),
+          note="Leave blank. roofslip report enters the date and a short hash of these cells, Site"
+          " and the overrides."),
     may_be_absent=True,
 )  # fmt: skip
 
