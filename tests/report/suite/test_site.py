@@ -130,7 +130,7 @@ def test_rows_of_a_suite_are_renewed_and_those_of_a_person_are_not(tmp_path, qui
     commands.stdout_of(*suite(made, "--into", path))
     type_into(path, {"Motions/motion-01/Polarity": "as recorded"})
     told = commands.stdout_of(*suite(made, "--into", path, "--seed", 2), "--count", 2)
-    assert f"{path}: 1 row added to the Motions worksheet, 1 renewed: Motions!" in told
+    assert f"{path}: 1 row added to the Motions worksheet, 1 updated: Motions!" in told
     *_, first, second = read(path).project.motions
     assert (first.id, first.polarity, second.id) == ("motion-01", "as recorded", "motion-02")
     assert first.source == second.source
@@ -322,6 +322,7 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
         ("period,sa,Vertical PSA (g)", "target.csv:1: is 'Vertical PSA (g)'; enter vertical [g]"),
         ("Sa in cm/s2\nperiod,sa", "target.csv:1: says 'Sa in cm/s2'; use accelerations in g"),
         ("# damping: 2%\nperiod,sa", "target.csv:1: says '# damping: 2%'; use the spectrum at 5%"),
+        ("2%-damped\nperiod,sa", "target.csv:1: says '2%-damped'; use the spectrum at 5% damping"),
         ("10 % of critical damping\nperiod,sa", "target.csv:1: says '10 % of critical damping'; u"),
         ("# Units: mg\nperiod,sa", "target.csv:1: says '# Units: mg'; use accelerations in g"),
         ("Velocity (cm/s)\nperiod,sa", "target.csv:1: says 'Velocity (cm/s)'; use accelerat"),
