@@ -139,8 +139,8 @@ def governing(choices: Sequence[Series], text: str) -> Series:
     """
     named = []
     for choice in choices:
-        pattern = rf"(?<!\w){re.escape(choice.report)}(?!\w)"
-        if choice.report and re.search(pattern, text, re.IGNORECASE):
+        report = re.escape(choice.report)
+        if report and re.search(rf"(?<!\w){report}(?!\w)", text, re.IGNORECASE):
             named.append(choice)
     return min(named or choices, key=lambda choice: choice.mean)
 

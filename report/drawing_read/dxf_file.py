@@ -37,7 +37,7 @@ OTHER_UNITS: Mapping[int, tuple[str, str]] = {
 
 DAMAGED = "not a DXF drawing, or damaged; open it in CAD and save it again"
 # What else is given as one, by how it begins, and what would do.
-_OTHER_FILES = (
+_OTHER_FILES = [(re.compile(begin, re.IGNORECASE), advice) for begin, advice in (
     (rb"AC10", "a DWG drawing; save it as DXF (R12 to R2018)"),
     (rb"AutoCAD Binary DXF", "a binary DXF; save it as DXF in text"),
     (rb"%PDF", "a PDF; use the DXF from which it was plotted"),
@@ -48,7 +48,7 @@ _OTHER_FILES = (
     (rb"(?:<[?!][^>]*>\s*){0,9}<svg", "an SVG; save it as DXF"),
     (rb"<", "XML or a web page; export the roof plan as DXF"),
     (rb"[{\[]", "JSON, such as GeoJSON; export the roof plan as DXF in ft or m"),
-)
+)]  # fmt: skip
 _ENDED = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[ \t]*EOF\s*\Z")
 _ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
 
@@ -70,7 +70,7 @@ def _read(path: Path) -> bytes:
     data = read_file(path, MAX_BYTES, too_large="save only the roof plan")
     begin = data[:1000].removeprefix(b"\xef\xbb\xbf").lstrip()
     for pattern, advice in _OTHER_FILES:
-        if re.match(pattern, begin, re.IGNORECASE):
+        if pattern.match(begin):
             raise InputError(advice)
     # By counting bytes: the library builds all entities before anything can be refused.
     values = data.count(b"\n") // 2  # each after a line with its code

@@ -45,7 +45,7 @@ _BEFORE = re.compile(
     r"[ -]?\(?(?:H|HT|HIGH|TALL|ABOVE|ABV|A\.?(?:F\.?)?R)\b(?![.:= ]*\d)",
     re.IGNORECASE,
 )
-_RANGE = re.compile(r"\d\S* (?:TO|OR|-) ?$", re.IGNORECASE)
+_RANGE = re.compile(r"(?<!\S)[^\s\d]*+\d\S*+ (?:TO|OR|-) ?$", re.IGNORECASE)
 _OTHER_SIZES = re.compile(r"(?:[\d.'\"/-]{1,12}+ ?+[WLD]?+ ?+[x×] ?+){1,3}+$", re.IGNORECASE)
 _METRIC = re.compile(r"(?<![\w.,'\"/-])(\d{1,6}),(\d{1,2})(?= ?(?:mm|cm|m)\b)", re.IGNORECASE)
 _OF_A_FLOOR = re.compile(

@@ -60,7 +60,7 @@ _END = re.compile(
 )
 _MARKS = "-_. "
 _FIELD = re.compile(rf"[^{_MARKS}]+")
-_GLUED_ENDS = "...$", "..$"
+_GLUED_ENDS = re.compile("...$"), re.compile("..$")
 _GLUED = re.compile(r"(.+?)(dwn|vrt|vert|[ns]\d\d[ew])", re.IGNORECASE)
 
 
@@ -277,7 +277,7 @@ def _without(stem: str, family: str, degrees: int) -> str:
 
     Glued are three letters or two.
     """
-    words = [*reversed([*_FIELD.finditer(stem)]), *(re.search(end, stem) for end in _GLUED_ENDS)]
+    words = [*reversed([*_FIELD.finditer(stem)]), *(end.search(stem) for end in _GLUED_ENDS)]
     for word in words:
         if word and len(word[0]) < len(stem):
             direction = _by_word(word[0].casefold())

@@ -46,7 +46,8 @@ for _kind, (_names, _) in _KINDS.items():
     _NAMES |= dict.fromkeys(_names, _kind)
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
 _DAMPING = re.compile(
-    r"damp\w*\W{0,3}(?:ratio\W{0,3})?(\d+(?:\.\d+)?) ?%|(\d+(?:\.\d+)?) ?%[\w ]{0,20}damp",
+    r"damp[a-z_]{0,20}\W{0,3}(?:ratio\W{0,3})?(\d++(?:\.\d++)?+) ?%"
+    r"|(?<!\d)(\d++(?:\.\d++)?+) ?%[\w -]{0,20}damp",
     re.ASCII | re.IGNORECASE,
 )
 _WANTED = "frequency [Hz] or period [s], horizontal [g] and, optionally, vertical [g]"

@@ -98,7 +98,7 @@ def _text(book: OpenBook, title: str, row: int, column: int) -> str:
 
 _TABLES = ("arrays", "objects", "clearances")
 _BLANK_ROWS = 2  # that a table has below those that are filled in
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
+_NUMBER = re.compile(r"[-+]?(\d++\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
 
 
 def tables(path: Path) -> list[Mapping[str, Any]]:

@@ -51,11 +51,12 @@ _KEYS = {
 # A line may state two: `NO. OF POINTS:  12800  EQUALLY SPACED INTERVALS OF:  0.005  SEC`.
 _ENTRIES = {
     name: re.compile(
-        rf"(?:.*\s)?(?:{words})(?![A-Z])([^:=]{{0,40}})(?:[:=]|(?<=COMP\.))\s*+(.*?)(?:\s\s++\w[^:=]*+[:=].*)?",
+        rf"(?:.*\s)?(?:{words})(?![A-Z])([^:=]{{0,40}})(?:[:=]|(?<=COMP\.))\s*+(.*)",
         re.IGNORECASE,
     )
     for name, words in _KEYS.items()
 }
+_NEXT = re.compile(r"(?<!\s)\s\s++\w")
 _FORMS = {
     "AFAD text": "STRONG GROUND MOTION RECORDS OF",
     "ESM, ITACA, AFAD .asc": "NDATA",
@@ -144,7 +145,7 @@ def read(source: Source) -> MotionFile:
         channels.append(Record(name=name, dt_s=dt_s, a_mps2=values, notes=notes))
     form = next((form for form, mark in _FORMS.items() if mark in head), "KEY: value")
     # The time zone may stand behind the time.
-    begins = re.split(r"\s*(?:\(|[A-Z])", heading.get("start")[1])[0]
+    begins = re.split(r"\(|[A-Z]", heading.get("start")[1])[0].rstrip()
     factors = phrases.factor_notes(enumerate(top))
     return motion_file(source, form, channels, factors, time_in(begins, *_START_FORMATS))
 
@@ -159,7 +160,10 @@ def _heading(source: Source) -> _Heading:
         steps += phrases.steps_in(source, index, line)
         for name, pattern in _ENTRIES.items():
             if match := pattern.fullmatch(line.strip("# ")):
-                entries.setdefault(name, []).append((match[1], match[2].strip(), index))
+                value = match[2]
+                next_entry = _NEXT.search(value, 0, max(value.rfind(":"), value.rfind("="), 0))
+                value = value[: next_entry and next_entry.start()].strip()
+                entries.setdefault(name, []).append((match[1], value, index))
     return _Heading(entries=entries, steps=steps, first=len(source.lines))
 
 
@@ -168,7 +172,7 @@ def _words(heading: _Heading) -> list[str]:
     _, text, _ = heading.get("names")
     if "/" in text:
         return [word.strip() for word in text.split("/") if word.strip()]
-    return re.findall(r"\w+(?=\()|\w+(?= )", text) if ";" in text else [text]
+    return re.findall(r"\b\w++(?=[( ])", text) if ";" in text else [text]
 
 
 def _names(source: Source, heading: _Heading) -> list[str]:
