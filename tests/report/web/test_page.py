@@ -419,7 +419,7 @@ def drawn(page, view, selector, wanted):
     """Wait until a view shows a text of the tables."""
     shown = page.locator(f"#{view} .view:not(.is-stale) {selector}", has_text=wanted)
     shown.first.wait_for()
-    return shown.first.inner_text()
+    return spaced(shown.first.inner_text())
 
 
 @pytest.mark.nightly
@@ -427,7 +427,7 @@ def test_the_views_draw_what_is_chosen_with_the_values_of_the_tables(page):
     page.click("#tab-slide")
     page.select_option("#array", "A2")
     page.select_option("#motion", "RM3")
-    prd = page.locator("#bars tbody tr", has_text="RM3").locator("td.numbers").inner_text()
+    prd = spaced(page.locator("#bars tbody tr", has_text="RM3").locator("td.numbers").inner_text())
     assert drawn(page, "slide", ".watch-head strong", prd).startswith(f"PRD {prd} (")
     page.focus("#slide .watch")
     page.keyboard.press("Home")
