@@ -231,6 +231,11 @@ def compared_with(table: Table, cells: Sequence[str]) -> Table:
     return replace(table, rows=(TableRow(cells=tuple(cells), kind="total"), *table.rows))
 
 
+def closed_by(table: Table, cells: Sequence[str]) -> Table:
+    """Return a table with one more row, set off from the others."""
+    return replace(table, rows=(*table.rows, TableRow(cells=tuple(cells), kind="total")))
+
+
 def merged(table: Table, *heads: str, once: bool = False) -> Table:
     """Return a table with one row for those that differ in names alone, which it lists.
 

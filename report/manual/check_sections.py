@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from markupsafe import Markup
 
 from report.document.columns import centered, text, words
 from report.document.sections import Section, section
-from report.document.tables import grouped
+from report.document.tables import grouped, headed, listed
 from report.manual import paper_sections
+from report.manual.measured_buildings import middle, span
+from report.manual.paper_sections import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT
 from report.manual.precision import floor
 from report.pages.parts import verdict
-from report.text.error_text import scientific, ten_digits
+from report.text.error_text import percent, scientific, seconds, ten_digits
 from report.text.formula_text import lettered, unbroken
 from report.text.grouping import grouped_by
+from report.text.names import ranged
+from report.text.units import NO_BREAK, number
+from report.text.validation import NOT_VALIDATED, VALIDATION
 from solver.verification.building import BY_HEIGHT
-from solver.verification.evidence import Verification, Verified
+from solver.verification.evidence import SECOND, WORST, Verification, Verified
+from solver.verification.features import FeatureStatus, statuses
 from solver.verification.workprecision import TIME
 
 
@@ -29,30 +35,89 @@ def judged(is_passed: bool) -> Markup:
 
 def summary(verification: Verification) -> Section:
     """Return verdict, key results and checks by section."""
-    work, maps, links = verification.work, verification.maps, verification.links
-    paper = work[(work["method"] == "paper") & (work["setting"] == 64)]
-    # Of the same record and case.
-    compared = paper.merge(work[work["method"] == "exact"], on=["record", "case"])
-    worst = max(links, key=lambda link: link.worst_percent) if links else None
     return section(
         "manual/summary",
         "Summary",
-        floor=floor(verification),
-        exact_s=work.loc[work["method"] == "exact", TIME].median(),
-        times_longer=(compared[f"{TIME}_x"] / compared[f"{TIME}_y"]).median(),
-        paper_percent=paper["PRD error [%]"].max(),
-        failed_runs=work[TIME].isna().sum(),
-        failed_cells=sum(int(sweep.failed.sum()) for sweep in maps),
-        cells=sum(sweep.failed.size for sweep in maps),
-        worst=worst,
-        worst_mm=paper_sections.worst_mm(worst) if worst else math.nan,
-        links_percent=float(np.mean([link.mean_percent for link in links] or [math.nan])),
-        PAPER_WORST_PERCENT=paper_sections.PAPER_WORST_PERCENT,
-        PAPER_MEAN_PERCENT=paper_sections.PAPER_MEAN_PERCENT,
-        BY_HEIGHT=BY_HEIGHT,
-        by_section=grouped_by(verification.checks, lambda row: row.section),
-        used=_used,
+        results=headed(
+            ("Quantity", 2.6), ("Result", 2.9), ("Section", 0.7), rows=_results(verification)
+        ),
+        sections=listed(_by_section(verification).items(), _SECTION_COLUMNS),
+        failed=[row for row in verification.checks if not row.passed],
     )
+
+
+def _by_section(verification: Verification) -> Mapping[str, Sequence[Verified]]:
+    return grouped_by(verification.checks, lambda row: row.section)
+
+
+def _results(verification: Verification) -> Iterator[tuple[str, str, int]]:
+    """Yield what was found, how much of it, and the section that says more."""
+    work, maps, links = verification.work, verification.maps, verification.links
+    checked = statuses(verification.checks)
+    paper = work[(work["method"] == "paper") & (work["setting"] == 64)]
+    exact = work[work["method"] == "exact"]
+    # Of the same record and case.
+    compared = paper.merge(exact, on=["record", "case"])
+    times_longer = (compared[f"{TIME}_x"] / compared[f"{TIME}_y"]).median()
+    largest = scientific(floor(verification))
+    yield "Largest relative error of the exact method against 50-digit arithmetic", largest, 3
+    if not math.isnan(exact_s := exact[TIME].median()):
+        yield "Median time per run of the exact method", seconds(exact_s), 5
+    if not math.isnan(times_longer):
+        most = percent(paper["PRD error [%]"].max())
+        said = f"{number(times_longer, 0)} times the run time (median), errors in PRD up to {most}"
+        yield "The paper's method with 64 sub-steps, same analysis cases", said, 5
+    yield "Failed runs, all methods", f"{work[TIME].isna().sum()} of {len(work)}", 5
+    failed, cells = (sum(of(sweep.failed) for sweep in maps) for of in (np.sum, np.size))
+    yield "Failed cells of the stability maps, other methods", f"{failed} of {cells}", 6
+    if links:
+        worst = max(links, key=lambda link: link.worst_percent)
+        mean = percent(float(np.mean([link.mean_percent for link in links])))
+        yield (
+            "Difference in RRD from the link of the paper's SAP 2000 model",
+            f"{percent(worst.worst_percent)} largest ({paper_sections.worst_mm(worst):.2g}"
+            f"{NO_BREAK}mm), {mean} mean; the paper reports {PAPER_WORST_PERCENT}% and "
+            f"{PAPER_MEAN_PERCENT}%",
+            8,
+        )
+    runs = sum(study.runs for study in verification.curves)
+    took = seconds(sum(study.seconds for study in verification.curves))
+    yield "The paper's parametric study", f"{runs:,} runs in {took}", 9
+    for roof in [roof for roof in verification.roofs if roof.is_recorded][:1]:
+        best = roof.predictions[0]
+        by_height = (other for other in roof.predictions if other.name == BY_HEIGHT)
+        others = [f"; {other.name}: PRD {span(other, roof)} times" for other in by_height]
+        yield (
+            "Roof motion of a recorded building, computed from its ground motion",
+            f"{best.name}: PRD {span(best, roof)} times that of the recorded roof motion, "
+            f"{number(100.0 * best.unexplained, 0)}% of the motion unexplained{''.join(others)}",
+            11,
+        )
+    for evidence in verification.models:
+        second, worst_heading = (evidence.study.named(name) for name in (SECOND, WORST))
+        if second.ratios.size and worst_heading.ratios.size:
+            yield (
+                "PRD in two axes relative to one axis, median",
+                f"{number(second.median, 2)} times (10 to 90% of the runs: {middle(second)}); "
+                f"{number(worst_heading.median, 2)} times for the worst heading",
+                12,
+            )
+    yield "Validation", NOT_VALIDATED, 13
+    n_verified = sum(status.is_verified for status in checked)
+    yield "Features verified by checks of this run", f"{n_verified} of {len(checked)}", 13
+    extent = "quick: fewer records, cases and settings" if verification.quick else "full"
+    total = f"{number(verification.seconds, 0)}{NO_BREAK}s in total"
+    yield "Extent of this verification", f"{extent}; {total}", 2
+
+
+_SECTION_COLUMNS = (
+    (words("Section", 3.0), lambda row: row[0]),
+    (text("Checks"), lambda row: len(row[1])),
+    (text("Passed"), lambda row: sum(check.passed for check in row[1])),
+    (text("Largest error", share=1.4), lambda row: scientific(max(of.error for of in row[1]))),
+    (text("Tolerance used", share=1.4), lambda row: _used(row[1])),
+    (centered("Result"), lambda row: judged(all(check.passed for check in row[1]))),
+)
 
 
 def _used(rows: Sequence[Verified]) -> str:
@@ -83,10 +148,43 @@ def checks(verification: Verification) -> Section:
         "Checks",
         by_section={
             name: grouped(grouped_by(rows, source), _CHECK_COLUMNS)
-            for name, rows in grouped_by(verification.checks, lambda row: row.section).items()
+            for name, rows in _by_section(verification).items()
         },
     )
 
 
 def _quantity(row: Verified) -> str:
     return row.quantity if row.unit == "1" else f"{row.quantity} [{lettered(row.unit)}]"
+
+
+_FEATURE_COLUMNS = (
+    (words("Feature", 2.9), lambda status: status.feature.name),
+    (words("Checks (section 3)", 1.9), lambda status: ranged(status.ids) or "—"),
+    (
+        text("Passed", share=0.9),
+        lambda status: f"{status.n_passed} of {status.n_checks}" if status.n_checks else "—",
+    ),
+    (words("Status", 1.8), lambda status: _status(status)),
+    (words("Limits of the checks", 3.2), lambda status: _limits(status)),
+)
+
+
+def features(verification: Verification) -> Section:
+    """Return the status of every feature, and what is not validated."""
+    return section(
+        "manual/features",
+        "Status of each feature",
+        validation=VALIDATION,
+        features=listed(statuses(verification.checks), _FEATURE_COLUMNS, kind="compact"),
+    )
+
+
+def _status(status: FeatureStatus) -> str:
+    if status.n_passed < status.n_checks:
+        return judged(False)
+    return "verified" if status.is_verified else "not verified"
+
+
+def _limits(status: FeatureStatus) -> str:
+    missing = f"Did not run: {', '.join(status.missing)}" if status.missing else ""
+    return "; ".join(filter(None, (status.feature.only, missing)))

@@ -11,10 +11,11 @@ from typing import Any
 import pandas as pd
 from markupsafe import Markup
 
-import solver.building.roof
+from report.document.columns import words
 from report.document.sections import Section, filled, section
+from report.document.tables import grouped, headed
 from report.document.templates import rendered
-from report.manual.check_sections import checks, judged, summary
+from report.manual.check_sections import checks, features, judged, summary
 from report.manual.measured_buildings import building, models
 from report.manual.paper_sections import convergence, curves, links
 from report.manual.precision import methods, work
@@ -25,11 +26,9 @@ from report.provenance.package_sources import installed, processor
 from report.provenance.release import version
 from report.text.csv_text import csv_text
 from report.text.grouping import grouped_by
-from report.text.validation import NOT_VALIDATED, VALIDATION
+from report.text.validation import NOT_VALIDATED
 from report.typeset.pdf import TEMPLATES, lay_out
-from solver.verification import evidence, model_study
 from solver.verification.evidence import Verification
-from solver.verification.features import statuses
 from solver.verification.workprecision import RUN, SINGLE, TIME
 
 _LIBRARIES = ("numpy", "numba", "llvmlite", "scipy", "pandas", "matplotlib", "jinja2", "weasyprint")
@@ -47,13 +46,6 @@ def this_machine() -> dict[str, str]:
         "System": f"{platform.system()} {platform.release()}, {platform.machine()}",
     }
 
-
-# Modules whose constants the templates print.
-_CONSTANTS = {
-    "building_rules": solver.building.roof,
-    "model_evidence": evidence,
-    "model_study": model_study,
-}
 
 # Columns of the table: of a check, and of a run in two axes.
 _CHECK = (
@@ -87,17 +79,15 @@ def manual_html(
 ) -> str:
     """Return the manual as HTML, before layout."""
     styles = (TEMPLATES / name for name in ("package.css", "verification.css"))
-    context: dict[str, Any] = _CONSTANTS | {
+    context: dict[str, Any] = {
         "v": verification,
-        "judged": judged,
         "with_symbols": with_symbols,
         # Without checks none failed, which is no pass.
         "verdict": judged(verification.passed and len(verification.checks) > 0),
         "n_passed": sum(row.passed for row in verification.checks),
-        "features": statuses(verification.checks),
         "not_validated": NOT_VALIDATED,
-        "validation": VALIDATION,
         "machine": machine,
+        "versions": headed(("Item", 1), ("Version or description", 3), rows=machine.items()),
         "version": machine["Roofslip"],
     }
     cover = {
@@ -110,9 +100,12 @@ def manual_html(
 
 def sections(verification: Verification) -> tuple[Section, ...]:
     """Return all sections except cover and contents."""
+    has_records = len(verification.roofs) > 1 or any(
+        evidence.study.n_recorded for evidence in verification.models
+    )
     return (
         summary(verification),
-        section("manual/scope", "Scope and terms"),
+        scope(verification),
         checks(verification),
         methods(verification),
         work(verification),
@@ -123,18 +116,43 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         conditioning(verification),
         building(verification),
         *((models(verification),) if verification.models else ()),
-        section("manual/features", "Status of each feature"),
+        features(verification),
         errors_by_version(),
-        section("manual/software", "Software and machine"),
+        section("manual/software", "Software and machine", has_records=has_records),
     )
+
+
+def scope(verification: Verification) -> Section:
+    """Return what is verified, the terms and the records."""
+    studies = []
+    for study in (evidence.study for evidence in verification.models):
+        n_made = len(study.motions) - study.n_recorded
+        studies.append((study.motions, study.motions[:n_made], study.motions[n_made:]))
+    return section(
+        "manual/scope",
+        "Scope and terms",
+        studies=studies,
+        buildings=[roof.title for roof in verification.roofs[1:]],
+    )
+
+
+_ERRORS = (
+    (words("Error", 3.2), lambda error: error.error),
+    (words("Effect", 2.5), lambda error: error.effect),
+    (words("Corrective action", 2.7), lambda error: error.action),
+)
 
 
 def errors_by_version() -> Section:
     """Return the known errors, under the last version that has them."""
+    by_version = grouped_by(known_errors(), lambda error: error.until).items()
     return section(
         "manual/known-errors",
         "Known errors of earlier versions",
-        by_version=grouped_by(known_errors(), lambda error: error.until),
+        errors=grouped(
+            {f"Through version {until}: {len(found)} errors": found for until, found in by_version},
+            _ERRORS,
+        ),
     )
 
 

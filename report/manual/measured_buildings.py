@@ -5,18 +5,37 @@ The comparison of models: effect of each fuller model, and two axes against gene
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 
 from report.document.columns import plain, text, words
 from report.document.sections import Section, section
 from report.document.tables import Column, Table, compared_with, listed
 from report.manual import stability_maps
-from report.text.error_text import scientific, ten_digits
+from report.text.counts import numbered
+from report.text.error_text import general, scientific, ten_digits
 from report.text.letter_case import capitalized
-from report.text.names import slug
-from report.text.units import G_MPS2, number
+from report.text.names import joined, slug
+from report.text.units import G_MPS2, NO_BREAK, number
+from solver.building.roof import FINENESS, RESTING_SHARE, SHARE
 from solver.model import Floats
-from solver.verification.evidence import RoofComparison, RoofPrediction, Verification
+from solver.verification import model_study
+from solver.verification.evidence import (
+    HELD,
+    HELD_ONE,
+    LEAST_M,
+    OVER_FAST,
+    OVER_SLOW,
+    OVER_STATIC,
+    SECOND,
+    WORST,
+    ModelChange,
+    RoofComparison,
+    RoofPrediction,
+    Verification,
+)
 
 _CHANGE = (
     (words("Comparison", 4.0), lambda change: change.name),
@@ -39,17 +58,63 @@ _PUSHED = (
 )
 
 
+# Changes that the sentences tell, by the name that the template has for each.
+_NAMED = {
+    "second": SECOND, "worst": WORST, "slow": OVER_SLOW, "fast": OVER_FAST,
+    "one_axis": HELD_ONE, "two_axes": HELD, "over_static": OVER_STATIC,
+}  # fmt: skip
+
+
+def _said(change: ModelChange) -> Mapping[str, object]:
+    """Return what sentences tell of a change; nothing where it has no ratios."""
+    if not change.ratios.size:
+        return {}
+    return {
+        "is_greater": change.median > 1.0,
+        "median": number(change.median, 2),
+        "middle": middle(change),
+        "largest": number(change.at(100.0), 1),
+        "above_percent": number(100.0 * change.share_above_one, 0),
+        "other_percent": number(100.0 * (1.0 - change.share_above_one), 0),
+    }
+
+
 def models(verification: Verification) -> Section:
     """Return the comparison of the models."""
     # One or none: a study is a tuple so that it can be left out.
     evidence = verification.models[0]
+    study, jumping = evidence.study, model_study.JUMPING
+    told: Mapping[str, Any] = {name: _said(study.named(of)) for name, of in _NAMED.items()}
+    made = len(study.motions) - study.n_recorded
+    motions = (
+        numbered(made, "generated motion") if made else "",
+        f"{study.n_recorded} recorded in earthquakes" if study.n_recorded else "",
+    )
     return section(
         "manual/models",
         "Models: one axis, two axes and rows of blocks",
-        evidence=evidence,
-        changes=listed(evidence.study.changes, _CHANGE, kind="compact"),
+        study=study,
+        model_study=model_study,
+        motions=" and ".join(filter(None, motions)),
+        slopes_deg=joined([*map(general, study.slopes_deg)]),
+        mus=joined([*map(general, study.mus)]),
+        ppas_g=joined([*map(general, study.ppas_g)]),
+        row_shares=joined([*map(general, model_study.ROW_SHARES)]),
+        n_blocks=len(model_study.ROW_SHARES),
+        least_mm=1e3 * LEAST_M,
+        static_ratio=f"{1.0 / model_study.SLOW_SHARE:.4g}",
+        pushed_caption=f"Distance from the initial position after 2{NO_BREAK}s: a sliding block "
+        f"stops under an opposing acceleration of {model_study.PUSHED_BACK_G:g}{NO_BREAK}g; "
+        f"kinetic μ = {jumping.mu_slow:g}, static μ = {jumping.mu_static:g}",
+        **told,
+        changes=listed(study.changes, _CHANGE, kind="compact"),
         pushed=listed(evidence.pushed.itertuples(), _PUSHED, kind="compact"),
     )
+
+
+def middle(change: ModelChange) -> str:
+    """Return the range of 10 to 90% of the ratios."""
+    return f"{number(change.at(10.0), 2)} to {number(change.at(90.0), 2)}"
 
 
 def building(verification: Verification) -> Section:
@@ -58,10 +123,16 @@ def building(verification: Verification) -> Section:
     return section(
         "manual/building",
         "Roof motion computed from ground motion",
-        SHOWN_S=stability_maps.SHOWN_S,
-        computed=stability_maps.computed,
+        share_percent=100.0 * SHARE,
+        fineness=FINENESS,
+        resting_percent=100.0 * RESTING_SHARE,
+        real="; ".join(roof.title for roof in verification.roofs if roof.is_recorded),
+        shown=f", and {stability_maps.SHOWN_S:g}{NO_BREAK}s of the roof acceleration.",
         roofs=[
-            (roof, name, _properties(roof), _bands(roof), _peaks(roof))
+            (
+                *(roof, name, _reference(roof).lower(), _ratios(roof), f"{roof.scale:.3g}"),
+                *(_properties(roof), _bands(roof), _peaks(roof)),
+            )
             for roof, name in zip(verification.roofs, names, strict=True)
         ],
         charts={
@@ -69,6 +140,18 @@ def building(verification: Verification) -> Section:
             for roof, name in zip(verification.roofs, names, strict=True)
         },
     )
+
+
+def _ratios(roof: RoofComparison) -> str:
+    """Return the ratios of the PRD of a recorded roof motion."""
+    found = stability_maps.computed(roof) if roof.is_recorded else ()
+    return "; ".join(f"{prediction.name}: {span(prediction, roof)}" for prediction in found)
+
+
+def span(prediction: RoofPrediction, roof: RoofComparison) -> str:
+    """Return the least and the largest ratio of its PRD to that of the roof motion."""
+    ratios = prediction.prd_m / roof.prd_m
+    return f"{number(ratios.min(), 2)} to {number(ratios.max(), 2)}"
 
 
 def _name(head: str) -> Column:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pandas as pd
 
-from report.document.columns import text, words
+from report.document.columns import centered, text, words
 from report.document.sections import Section, section
 from report.document.tables import Column, Table, listed
 from report.figures.base import power_of_ten
@@ -15,6 +15,8 @@ from report.manual import work_figures as figures
 from report.text.error_text import percent, seconds
 from report.text.formula_text import lettered
 from report.text.letter_case import capitalized
+from report.text.names import joined
+from report.text.units import number
 from solver.rivals.methods import METHODS
 from solver.sliding.two_axes import DEFAULT_TOLERANCE
 from solver.verification.checks import RANDOM, ROOF
@@ -29,6 +31,20 @@ def floor(verification: Verification) -> float:
     return max([1e-16, *errors])
 
 
+_KNOBS = {
+    "": "no setting", "substeps": "sub-steps per interval",
+    "stiffness_per_m": "link stiffness [1/m]", "velocity_mps": "velocity v0 [m/s]",
+}  # fmt: skip
+_METHODS = (
+    (words("Method", 1.7), lambda method: lettered(method.title)),
+    (words("Accuracy set by", 1.5), lambda method: _KNOBS[method.knob]),
+    (centered("Order", 0.55), lambda method: number(method.order, 0)),
+    (centered("Vertical", 0.75), lambda method: "yes" if method.takes_vertical else "no"),
+    (words("Limitations", 3.6), lambda method: lettered(method.invalid_when)),
+    (words("Source", 2.6), lambda method: lettered(method.source)),
+)
+
+
 def methods(verification: Verification) -> Section:
     """Return what each method is, and its errors against 50 digits."""
     errors = verification.rivals
@@ -38,7 +54,7 @@ def methods(verification: Verification) -> Section:
     return section(
         "manual/methods",
         "Methods compared",
-        methods=tuple(METHODS.values()),
+        methods=listed(METHODS.values(), _METHODS, kind="compact"),
         errors=listed(
             kinds.groupby("method", sort=False),
             (name, *itertools.chain.from_iterable(of_kinds)),
@@ -51,22 +67,31 @@ def work(verification: Verification) -> Section:
     """Return accuracy against run time."""
     runs, floor_share = verification.work, floor(verification)
     plane = verification.models[0].work if verification.models else runs[:0]
-    lost = runs[runs[[TIME, "PRD error [m]"]].isna().any(axis=1)]
     ours = plane[(plane["method"] == OURS) & (plane["setting"] == DEFAULT_TOLERANCE)]
     return section(
         "manual/work",
         "Accuracy against run time",
         cases=len(runs[RUN].drop_duplicates()),
-        lost=lost.groupby("method", sort=False).size().to_dict(),
+        missing=_missing(runs),
         floor_percent=100.0 * floor_share,
-        plane=plane,
-        ours=ours,
+        plane_records=list(plane["record"].unique()),
+        plane_cases=list(plane["case"].unique()),
+        median_percent=ours["residual error [%]"].median(),
+        largest_percent=ours["residual error [%]"].max(),
         in_plane=times_longer(
             plane[plane["method"].str.endswith("(compiled)")], ours, "residual error [%]"
         ),
         medians=_medians(runs),
         charts={"work-percent": figures.overview(runs, plane, 100.0 * floor_share)},
     )
+
+
+def _missing(runs: pd.DataFrame) -> str:
+    lost = runs[runs[[TIME, "PRD error [m]"]].isna().any(axis=1)]
+    if lost.empty:
+        return f"All {len(runs)} runs gave a result."
+    of_each = [f"{name}: {n}" for name, n in lost.groupby("method", sort=False).size().items()]
+    return f"{len(lost)} of {len(runs)} runs failed and are not drawn ({joined(of_each)})."
 
 
 def _medians(runs: pd.DataFrame) -> Table:

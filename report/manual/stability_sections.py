@@ -6,6 +6,8 @@ import numpy as np
 
 from report.document.sections import Section, section
 from report.manual import stability_maps
+from report.text.error_text import percent
+from report.text.units import NO_BREAK
 from solver.verification.evidence import Verification
 
 
@@ -20,7 +22,13 @@ def stability(verification: Verification) -> Section:
     return section(
         "manual/stability",
         "Stability",
-        by_chart=by_chart,
+        by_chart={
+            name: [
+                f"({count}) {of.note} Failed: {of.failed.sum()} of {of.failed.size} cells."
+                for count, of in maps
+            ]
+            for name, maps in by_chart.items()
+        },
         charts={
             name: stability_maps.stability([sweep for _, sweep in maps], first=maps[0][0])
             for name, maps in by_chart.items()
@@ -34,7 +42,9 @@ def conditioning(verification: Verification) -> Section:
         "manual/conditioning",
         "Sensitivity to the friction coefficient",
         cases=[
-            (case, np.nanmax(case.change_percent), np.nanmedian(case.change_percent))
+            f"{case.title} (θ = {case.slope_deg:g}°, PPA = {case.ppa_g:g}{NO_BREAK}g, "
+            f"{case.record}): largest change {percent(np.nanmax(case.change_percent))}, "
+            f"median {percent(np.nanmedian(case.change_percent))}. {case.note}"
             for case in verification.conditioning
         ],
     )

@@ -6,7 +6,7 @@ import pytest
 
 from fixtures import pages
 from fixtures.verify_run import only
-from report.document.sections import section
+from report.manual.check_sections import features
 from report.manual.manual_files import errors_by_version
 from report.text.validation import VALIDATION
 from solver.verification.design_checks import design_checks
@@ -29,7 +29,7 @@ def every():
 def features_of(checks):
     """The rows of the table of features by name."""
     given = only(checks=tuple(checks))
-    table = pages.manual(given, section("manual/features", "Features")).table("Features")
+    table = pages.manual(given, features(given)).table("Features")
     return {name: list(cells) for name, *cells in table.cells}
 
 
@@ -81,7 +81,7 @@ def test_checks_of_rules_spectra_filters_uplift_and_tipping_pass_and_fail_where_
 
 
 def test_the_manual_says_that_no_test_validates_the_solution():
-    assert VALIDATION in pages.manual(only(), section("manual/features", "Features"))
+    assert VALIDATION in pages.manual(only(), features(only()))
 
 
 def test_every_error_of_a_released_version_has_an_effect_and_an_action():
