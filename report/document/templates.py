@@ -18,7 +18,7 @@ from markupsafe import Markup
 
 from report.assessment.checks.check import dagger
 from report.document.tables import headed
-from report.text.counts import counted, numbered, spelled
+from report.text.counts import counted, numbered, spelled, thousands
 from report.text.error_text import below_mm, general, percent, scientific, seconds
 from report.text.formula_text import lettered
 from report.text.letter_case import capitalized, lowered
@@ -36,7 +36,7 @@ _HERE = Path(__file__).resolve().parents[2]
 _FILTERS = (
     below_mm, capitalized, counted, dagger, data_uri, digits_down, digits_up, formula, general,
     joined, lettered, lowered, named, number, numbered, percent, ranged, ratio, ratio_up,
-    scientific, seconds, shortened, spelled, symbol,
+    scientific, seconds, shortened, spelled, symbol, thousands,
 )  # fmt: skip
 
 

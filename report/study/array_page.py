@@ -7,13 +7,15 @@ probabilities. Read `fragility`, then `years`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 from report.document.columns import text, words
 from report.document.sections import Section, section
-from report.document.tables import Column, listed
-from report.project.read.years_file import SUPPORTING, Distance, StudyYears, YearsOfArray
+from report.document.tables import Column, Table, by_place, listed
+from report.pages.symbols import with_symbols
+from report.project.read.years_file import NEVER, SUPPORTING, Distance, StudyYears, YearsOfArray
 from report.study import study_charts
 from report.study import years as rates
 from report.study.dispersions import (
@@ -28,10 +30,13 @@ from report.study.page_parts import axis, design_length
 from report.study.study_plan import SLOPE
 from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
 from report.study.study_tables import Row, length_unit, who
-from report.study.wording import MASS, on_building
+from report.study.wording import MASS, both, chance, on_building
 from report.study.years import ArrayYears
-from report.text.names import slug
-from report.text.units import number, round_up
+from report.text.counts import numbered
+from report.text.error_text import scientific
+from report.text.names import joined, slug
+from report.text.units import digits_down, digits_up, number, round_up
+from solver.model import INCH_M
 from solver.studies import capacity, lives, predictive, uncertainty
 from solver.studies import fragility as fits
 from solver.studies.rates import LEAST_RATE
@@ -40,19 +45,73 @@ from solver.studies.rates import LEAST_RATE
 def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
     """Return the section on an array: its fragilities, and the probabilities where asked for."""
     name = f"{result.plan.array.id}{on_building(results, result.plan.building, ', building ')}"
+    found = [state.fragility for state in result.states]
     known = [state for state in result.states if state.fragility.fitted.is_known]
     return section(
         "study/array",
         f"Fragility of {name}",
         id=f"array-{slug(name)}",
         one=result,
+        array=result.plan.array,
+        motions=found[0].capacities.intensity.size,
+        levels=found[0].levels.size,
+        censored=found[0].censored,
+        notes=list(_notes(result)),
+        unknown=[state.name for state in result.states if not state.fragility.fitted.is_known],
+        fragilities=_fragilities(results, result),
+        is_untested=any(math.isnan(of_state.p_value) for of_state in found),
         exported=_exported(results, result, known),
+        is_centered=not math.isnan(result.center_m),
+        quantiles=[f"{100 * share:g}%" for share in (uncertainty.LOW, uncertainty.HIGH)],
+        confidence=f"{100 * fits.CONFIDENCE:g}%",
+        REPEATS=fits.REPEATS,
+        LILLIEFORS_REPEATS=fits.LILLIEFORS_REPEATS,
+        goodness=f"{100 * (1 - fits.LEVEL):g}%",
+        ACCURACY=capacity.ACCURACY,
         MASS=MASS,
-        capacity=capacity,
-        fits=fits,
-        uncertainty=uncertainty,
         charts=dict(_charts(results, result)),
     )
+
+
+def _notes(result: ArrayStudyResult) -> Iterator[str]:
+    """Yield what is said of censored capacities, and of those beyond which the PRD falls again."""
+    for state in result.states:
+        found = state.fragility.capacities
+        if found.is_censored.any():
+            censored = f"{found.is_censored.sum()} of {found.intensity.size}"
+            yield f"{state.name}: {censored} capacities are censored."
+        if found.falls.any():
+            falls = f"for {found.falls.sum()} of {found.intensity.size} motions the PRD is below"
+            then = "again at a greater intensity; the first crossing counts."
+            yield f"{state.name}: {falls} the limit {then}"
+
+
+def _fragilities(results: StudyResults, result: ArrayStudyResult) -> Table:
+    """Return the lognormals of the limit states, with their intervals rounded outward."""
+    low, high = 50 * (1 - fits.CONFIDENCE), 50 * (1 + fits.CONFIDENCE)
+    interval = f"{low:g} to {high:g}%"
+    columns = (
+        (words("State", 0.7), lambda state: state.name),
+        (words("Exceeded when", 2.4), lambda state: state.words),
+        (
+            text("PRD above", share=1.7),
+            lambda state: both(results, state.limit_m) if state.limit_m else "0",
+        ),
+        (text("Median"), lambda state: _known(state.fragility.fitted.theta, digits_down)),
+        (text(interval, share=1.5), lambda state: _outward(*state.fragility.theta_range)),
+        (text("β"), lambda state: _known(state.fragility.fitted.beta, digits_up)),
+        (text(f"{interval} of β", share=1.5), lambda state: _outward(*state.fragility.beta_range)),
+        (text("p of fit"), lambda state: digits_down(state.fragility.p_value, 2)),
+    )
+    return listed(result.states, columns)
+
+
+def _known(value: float, digits: Callable[[float, int], str]) -> str:
+    return "none" if math.isnan(value) else digits(value, 3)
+
+
+def _outward(low: float, high: float) -> str:
+    return "none" if math.isnan(low) else f"{digits_down(low, 3)} to {digits_up(high, 3)}"
 
 
 def _charts(results: StudyResults, result: ArrayStudyResult) -> Iterator[tuple[str, str]]:
@@ -87,12 +146,13 @@ def _exported(
             ),
         ),
     )
+    lacking = [
+        f"{name} ({parts[0].source})"
+        for k, (name, parts) in enumerate(zip(NAMES, by_name, strict=True))
+        if k not in known
+    ]
     return {
-        "lacking": [
-            f"{name} ({parts[0].source})"
-            for k, (name, parts) in enumerate(zip(NAMES, by_name, strict=True))
-            if k not in known
-        ],
+        "lacking": f". Not included: {joined(lacking)}" if lacking else "",
         "first_order": [NAMES[k] for k in known if NAMES[k] in ("friction", "slope")],
         "is_level_below": below == 0.0,
         "table": listed(states, columns),
@@ -119,9 +179,12 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
     """Return the section on the rates and the lives of an array."""
     plan = array_years.plan
     name = f"{plan.array.id}{on_building(results, plan.building, ', building ')}"
+    surfaces = results.plan.input.surfaces(plan.array.mat)
     (curve,), unit = results.plan.hazard, length_unit(results)
+    prds = (text(head, share=1.6) for head in ("PRD", "16%", "84%"))
     # Each motion is run up to its own uplift.
     ends = array_years.responses.levels.max(axis=1)
+    of_mat, lost = array_years.predicted, array_years.statistics[NEVER][0].without_value
     return section(
         "study/years",
         f"Rates and {rates.LIFE_YEARS:g} years of {name}",
@@ -132,25 +195,111 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
         curve=curve,
         lifts=ends.min() < 0.999 * curve.top,
         top=float(ends.max()),
-        of_friction=[
-            (mu, [design_length(results, prd_m) for prd_m in row])
-            for mu, row in zip(array_years.mus, array_years.prd_by_mu_m, strict=True)
-        ],
-        recurrence_heads=[
-            (f"{span:g} years", 1, "right", unit.symbol) for span in rates.RECURRENCES
-        ],
+        friction=(
+            f"mean μ of its tests {number(of_mat[0].mean, 3)}"
+            if of_mat
+            else f"μ = {array_years.mus[0]:g} without scatter, as no test is given"
+        ),
+        longest=digits_down(1 / curve.rate[-1], 3) if curve.is_ended else "",
+        settled={
+            "share": f"{digits_up(100 * array_years.change, 2)}%",
+            "mm": f"{1000 * lives.SETTLED_M:g}",
+            "inch": digits_up(lives.SETTLED_M / INCH_M, 1),
+        },
+        levels=array_years.responses.levels[0].size,
+        recurrences=listed(
+            (
+                (f"{span:g}", *(both(results, d) for d in row))
+                for span, *row in array_years.recurrences
+            ),
+            by_place(text("Mean recurrence", "years", 1.2), *prds),
+            kind="compact",
+        ),
+        is_ended=any(math.isinf(high_m) for *_, high_m in array_years.recurrences),
+        clearance_rate="{} ({} to {})".format(*map(scientific, array_years.clearance_rates)),
+        chances=", ".join(
+            f"{chance(*values)} in {span:g} years" for span, values in array_years.chances.items()
+        ),
+        bins=_bins(results, array_years),
+        life=f"{rates.LIFE_YEARS:g} years",
+        lost=f"{digits_up(100 * lost, 2)}%" if lost else "",
+        statistics=_statistics(results, array_years),
+        runs=listed(surfaces, _RUNS, kind="compact"),
+        by_friction=_by_friction(results, array_years) if of_mat else None,
+        quantile=f"{100 * predictive.QUANTILES[0]:g}%",
+        verdict=_verdict(array_years) if of_mat else "",
         first_motion=results.plan.motions.motions[0][0],
         SUPPORTING=SUPPORTING,
-        surfaces=results.plan.input.surfaces(array_years.plan.array.mat),
+        surfaces=surfaces,
         LEAST_RATE=LEAST_RATE,
-        lives=lives,
-        predictive=predictive,
-        rates=rates,
+        LIVES=rates.LIVES,
         charts={
             "rates": study_charts.rates(array_years, curve, unit, axis(results)),
             "lives": study_charts.lives(array_years, unit),
         },
     )
+
+
+_RUNS = (
+    (words("Report", 2), lambda surface: surface.report or "not stated"),
+    (words("Surface"), lambda surface: surface.surface),
+    (text("Runs", share=0.7), lambda surface: len(surface.runs)),
+    (text("Mean μ"), lambda surface: number(surface.mean, 3)),
+)
+
+
+def _bins(results: StudyResults, array_years: ArrayYears) -> Table:
+    """Return the share of each range of intensity in the rate of the clearance."""
+    measure = results.plan.input.study.intensity
+    edges = [digits_down(edge, 3) for edge in array_years.edges]
+    between = [f"{low} to {high}" for low, high in pairwise(edges[1:-1])]
+    names = (f"below {edges[1]}", *between, f"{edges[-2]} and more")
+    shares = [f"{number(100 * share, 1)}%" for share in array_years.shares]
+    heads = text(with_symbols(measure.letters), measure.unit, 1.4), text("Share of the rate")
+    return listed(zip(names, shares, strict=True), by_place(*heads), kind="compact")
+
+
+def _statistics(results: StudyResults, array_years: ArrayYears) -> Table:
+    """Return the largest and the last distance, by when the array is put back."""
+    rows = []
+    for name, pair in array_years.statistics.items():
+        for which, of in zip(("largest", "last"), pair, strict=True):
+            distances = both(results, of.mean_m), both(results, of.p95_m)
+            rows.append((name, which, *distances, f"{digits_up(100 * of.beyond, 2)}%"))
+    named = (words("Put back", 1.6), words("Distance", 0.8))
+    found = (text("Mean", share=1.4), text("95%", share=1.4), text("Beyond clearance", share=1.1))
+    return listed(rows, by_place(*named, *found), kind="compact")
+
+
+def _by_friction(results: StudyResults, array_years: ArrayYears) -> Table:
+    """Return the PRD of each friction coefficient by mean recurrence interval."""
+    symbol = length_unit(results).symbol
+    prds = (text(f"{span:g} years", symbol) for span in rates.RECURRENCES)
+    heads = text("Probability that μ is less", "%", 1.2), text("μ", share=0.8), *prds
+    of_mu = zip(predictive.QUANTILES, array_years.mus, array_years.prd_by_mu_m, strict=True)
+    rows = (
+        (f"{100 * share:g}", number(mu, 3), *(design_length(results, prd_m) for prd_m in row))
+        for share, mu, row in of_mu
+    )
+    return listed(rows, by_place(*heads), kind="compact")
+
+
+def _verdict(array_years: ArrayYears) -> str:
+    """Return whether more runs with this mean and scatter would show the friction needed."""
+    prd, runs = f"PRD of {rates.VERDICT_YEARS:g} years", "runs with this mean and scatter"
+    required = digits_up(array_years.required_mu, 3)
+    if array_years.more_runs == 0:
+        within = "is within the clearance even with the lowest of these coefficients"
+        return f"The {prd} {within}: more {runs} do not change that."
+    start = f"With the lowest of these coefficients the {prd} exceeds the clearance"
+    if not math.isinf(array_years.more_runs):
+        more = numbered(int(array_years.more_runs), "more run")
+        shown = f"would show the μ = {required} that is required"
+        return f"{start}; {more} with this mean and scatter {shown}."
+    if math.isinf(array_years.required_mu):
+        larger = "it does so with the largest too, so that no number of"
+        return f"{start}; {larger} {runs} changes that."
+    return f"{start}; μ = {required} is required, which no number of {runs} shows."
 
 
 def sheets(results: StudyResults) -> Iterator[tuple[str, Row, list[Row]]]:

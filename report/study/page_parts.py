@@ -7,22 +7,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
 
+from report.document.columns import text, words
 from report.document.sections import Section, section
+from report.document.tables import listed
 from report.study import study_charts
 from report.study.capacity_runs import FREQ_HZ
 from report.study.study_results import StudyResults
 from report.study.study_tables import length_unit
+from report.text.counts import numbered
 from report.text.names import joined
-from report.text.units import (
-    measured,
-    no_less,
-)
+from report.text.units import measured, no_less, number
 from report.text.validation import VALIDATION
-from solver.model import Floats
+from solver.model import INCH_M, Floats
 
 # Lines of a chart.
 MOST_LINES = 8
@@ -85,12 +86,41 @@ def design_length(results: StudyResults, value_m: float) -> str:
 def basis(results: StudyResults) -> Section:
     """Return the section on how the study was run."""
     without, motions = results.curves.without_value, results.plan.motions.motions[0]
+    first, manifest, study_input = motions[0], results.manifest, results.plan.input
+    model, rows = manifest["model"], manifest["rows"]
+    models = (
+        (words("Model", 3), itemgetter(0)),
+        (text("Runs"), lambda model: f"{model[1]:,}"),
+        (text("Share"), lambda model: f"{100 * model[1] / rows:.1f}%"),
+    )
+    mats = (
+        (words("Mat", 1.5), lambda mat: mat.id),
+        (text("μ, median"), lambda mat: f"{study_input.friction(mat.id).center:.3g}"),
+        (
+            text("Standard deviation of ln μ", share=1.4),
+            lambda mat: f"{study_input.friction(mat.id).beta:.3f}" if mat.tested else "none",
+        ),
+        (words("Tested values", 2.4), lambda mat: mat.tested or "none"),
+        (words("Report", 1.8), lambda mat: mat.report or "none"),
+    )
     return section(
         "study/basis",
         "Basis",
-        first=motions[0],
+        first=first,
+        components=numbered(1 + first.has_transverse + first.has_vertical, "component"),
+        times=numbered(len(first.orientations), "time"),
+        matters_mm=f"{1000 * model['matters_m']:g}",
+        matters_in=number(model["matters_m"] / INCH_M, 2),
+        matters_share=f"{100 * model['matters_share']:g}%",
+        tolerance=f"{100 * model['tolerance']:g}%",
         lost=int(without.sum()),
         pairs=without.size * len(motions),
+        models=listed(manifest["models"].items(), models, kind="compact"),
+        mats=listed(study_input.mats, mats, kind="compact"),
+        warnings=listed(
+            results.plan.warnings,
+            ((words("Cell", 1.2), itemgetter(0)), (words("Warning", 6), lambda row: f"{row[1]}.")),
+        ),
     )
 
 

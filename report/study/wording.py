@@ -18,7 +18,7 @@ from report.study.dispersions import NOT_DETERMINED, is_refused, is_warned
 from report.study.manifest import OWN_KEY, TRUST_PARTS
 from report.study.study_results import MEAN, SLOPE_DECIMALS, StudyResults
 from report.text.unit_format import UnitFormat
-from report.text.units import no_less, with_unit
+from report.text.units import digits_down, digits_up, no_less, with_unit
 from report.typeset.pdf import TEMPLATES
 from solver.rules.provisions import SEPARATION_KEYS
 
@@ -36,6 +36,7 @@ def context(results: StudyResults) -> dict[str, Any]:
         "given": study_input,
         "study": study_input.study,
         "both": partial(both, results),
+        "chance": chance,
         "level": partial(level, results),
         "on": partial(on_building, results),
         "with_symbols": with_symbols,
@@ -58,6 +59,14 @@ def both(results: StudyResults, value_m: float) -> str:
     # A clearance is rounded up, too: what is found for one holds for a larger one.
     known_m = value_m if math.isfinite(value_m) else math.nan
     return UnitFormat(results.plan.input.study.units_first.is_us).both(known_m, show=no_less)
+
+
+def chance(value: float, low: float, high: float) -> str:
+    """Return a probability, rounded up to two digits, with its interval, rounded outward."""
+    return (
+        f"{digits_up(100 * value, 2)}% "
+        f"({digits_down(100 * low, 2)}% to {digits_up(100 * high, 2)}%)"
+    )
 
 
 def level(results: StudyResults, value: float) -> str:

@@ -2,6 +2,7 @@
 
     counted(3, "array")    three arrays
     numbered(12, "run")    12 runs
+    thousands(12000)       12,000
 
 Read `spelled`.
 """
@@ -24,3 +25,8 @@ def counted(count: int, noun: str) -> str:
 def numbered(count: int, noun: str) -> str:
     """Return the same in digits, such as `1 problem` or `3 problems`."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def thousands(count: int) -> str:
+    """Return a count in digits, in groups of three."""
+    return f"{count:,}"
