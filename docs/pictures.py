@@ -163,6 +163,7 @@ def _page(page: Page, path: Path) -> None:
         at_rest(page)
         page.get_by_role("tab", name="Watch it slide").click()
         page.get_by_role("slider", name="Time").fill("23.3")
+        page.evaluate("scrollTo(0, 0)")  # to which it was brought into view
         shot("browser-slide.png", LAPTOP)
 
 

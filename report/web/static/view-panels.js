@@ -8,7 +8,7 @@ import { frame, linesAcross, linesUp, pointerIn, scale, setSize, textsAcross, te
 const LEFT = 46;
 const RIGHT = 8;
 const HEAD = 20; // height of a line of a heading, as in views.css
-const NARROW = 340; // below it a heading has a line more, and so has the whole
+const NARROW = 320; // below it a heading has a line more, and so has the whole
 const AXIS = 22;
 const ROOM = 0.06; // of the range of the values, above and below
 let made = 0;
