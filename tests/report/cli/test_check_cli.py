@@ -14,6 +14,7 @@ from fixtures.commands import as_json, errors_of, run, stdout_of
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.project_parts import LB
+from fixtures.spaces import spaced
 from fixtures.workbooks import arrays, cell_address, make, project, read_workbook
 from report.assessment.assess import assess
 from report.assessment.checks.sentence import texts
@@ -202,7 +203,7 @@ def typed(book, cell, text):
 def required(assessment):
     """What is not satisfied and has a number: what it is, its cell, and the number as printed."""
     for check in assessment.checks:
-        _, limit = texts(check, assessment.project.us_first)
+        limit = spaced(texts(check, assessment.project.us_first)[1])
         if check.is_open and check.places and re.match(r"[≥=] [\d,.]+ \w", limit):
             yield (check.id, check.subject), check.places[-1], limit
 
