@@ -101,7 +101,7 @@ def test_replacing_changes_the_places_and_who_confirmed_them_alone(tmp_path):
     head = HEAD | {"drawing_confirmed_by": "RG", "drawing_confirmed_date": "2025-11-18"}
     path = make(tmp_path, clearances=[], project=head)
     output = run(drawing(tmp_path), tmp_path, "--replace")
-    assert "'Drawing distances confirmed by RG, 2025-11-18' is taken out" in output
+    assert "'Drawing distances confirmed by RG, 2025-11-18' was cleared" in output
     assert read(path).project.project.drawing_confirmed_date is None
 
 

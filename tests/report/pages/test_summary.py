@@ -11,6 +11,7 @@ from fixtures.assessments import FOOT, REVIEW
 from fixtures.pages import page_of
 from fixtures.paths import ROOT
 from fixtures.projects import INCH
+from fixtures.spaces import spaced
 from report.assessment.assess import assess
 from report.assessment.checks.motion_checks import of_records
 from report.assessment.checks.sentence import texts, words
@@ -38,7 +39,7 @@ def test_prescriptive_designs_have_no_floor_and_clearances_without_verdict_are_c
 def test_the_terminal_marks_what_is_not_permitted_and_calls_nothing_beside_it_ok():
     weak = open_project(ROOT / "projects/school").at({"intensity": 0.32, "together": "no"})
     done = assess(weak.sheet, weak.shaking)
-    lines = list(summary(done))
+    lines = [spaced(line) for line in summary(done)]
     for item, line in zip(document(done)["arrays"], lines[1:], strict=False):
         assert line.startswith(item["id"])
         assert "488 mm (19.2 in), not permitted" in line  # at another S_DS it is not reviewed
