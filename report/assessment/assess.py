@@ -53,6 +53,8 @@ def assess(
 
     The `acceptance` of the motions is computed unless it is known. Raises as `rule_set_of`.
     """
+    # Before everything else, and once the records are read, whose hashes it takes: a peer review
+    # of other inputs removes no floor, and a confirmation of other inputs no mark.
     data = outdated(sheet.project, shaking.hashes)
     return _assess(data, sheet.source, shaking, runs or Runs(), acceptance, extent)
 
@@ -81,8 +83,12 @@ def _assess(
         )
         for array in data.arrays
     )
+    # Clearances come after all arrays: between two of them the larger displacement governs.
     slides = {item.id: item.displacement for item in arrays}
     clearances = tuple(check_clearance(data, rules, slides, row) for row in data.clearances)
+    # A mark comes from comparing numbers with those of the rule set as adopted, so that an
+    # override that changes nothing has none. This second assessment runs nothing: no override
+    # changes a run.
     plain, adopted = as_adopted(data), None
     if plain is not data:
         adopted = _assess(plain, source, shaking, runs, acceptance, Extent.ALONE)
@@ -139,6 +145,8 @@ def entered(done: Assessment, project: ProjectInput) -> Assessment | None:
     if refused(done.project, project):
         return None
     known = outdated(project, done.shaking.hashes)
+    # With less friction, since the verdict is printed beside a remedy: an OK that 5% less friction
+    # breaks is one with conditions.
     return reassess(done, known, extent=Extent.LESS_FRICTION)
 
 

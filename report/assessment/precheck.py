@@ -58,8 +58,11 @@ def findings(source: WorkbookSource, data: ProjectInput, shaking: Shaking) -> tu
 
 def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
     """Yield the checks that need no displacement and are not satisfied, each at its cell."""
+    # As `assess` begins, for `check` and `report` name the same limits (test_precheck.py).
     data = outdated(data, shaking.hashes)
     rules = rule_set_of(data)
+    # By products of matrices: the compiled kernel takes longer to load than these spectra to
+    # compute (`solver.records.block_spectra`).
     spectra_of = partial(together, periods_s=1.0 / POINTS_HZ)
     acceptance = shaking_acceptance(shaking, targets(data), spectra_of)
     basis = statistic_basis(data)
@@ -77,6 +80,8 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
     statistic = Place("options", 0, "statistic")
     pairs = zip(data.arrays, routes, strict=True)
     analyzed = [array.id for array, limits in pairs if limits.route is Route.ANALYSIS]
+    # A statistic that the workbook asks for. Too few motions for that of the rule set miss a limit
+    # of the analysis, which is among `known` below.
     if basis and lacking and analyzed:
         none = no_design(rules, analyzed, lacking, MORE_MOTIONS)
         yield _finding(replace(none, places=(statistic,)), data.us_first)
@@ -93,6 +98,8 @@ def limits_before_runs(data: ProjectInput, shaking: Shaking) -> Iterator[Finding
         if check.is_open or (check.verdict is Verdict.NOTE and check.remedy):
             yield _finding(check, data.us_first)
     for index, array in enumerate(data.arrays):
+        # Whether a slack that is entered is enough depends on the runs; that none is entered does
+        # not.
         if array.slack_m is None:
             yield _finding(slack_check(array, math.nan, index), data.us_first)
 

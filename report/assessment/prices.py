@@ -37,6 +37,8 @@ def prices(
     given another input, and the motions that it is without.
     """
     sentences = dict[str, str]()
+    # The last three are priced where they are satisfied, too: a plan checker asks what rests on
+    # them.
     asked_for = {check.id for check in done.checks if check.is_open} | {
         _REVIEW,
         _RULE_SET,
@@ -86,6 +88,7 @@ def _price(done: Assessment, changed: Assessment, how: str) -> str:
             for item in assessed.arrays
         ]
 
+    # By text: the NaN of an array without a permitted displacement does not equal itself.
     if repr(came(done)) == repr(came(changed)):
         return ""
     us_first = done.project.us_first

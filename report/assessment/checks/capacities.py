@@ -70,6 +70,7 @@ def _provided(value: float | None, required: float, quantity: Quantity) -> Mappi
         "found": NOT_GIVEN if value is None else capacity(value, quantity),
         "limit": demand(required, quantity) if has_limit else NO_DESIGN,
         "sense": Sense.AT_LEAST if has_limit else Sense.STATED,
+        # False for NaN: nothing is enough for a displacement that is not known.
         "is_satisfied": value is not None and value >= required,
         "consequence": Consequence.CONDITION if value is None else Consequence.NG,
     }

@@ -167,7 +167,9 @@ class Check:
         elif self.sense is Sense.EQUAL:
             pair.sort(reverse=True)
         demand, capacity = pair
+        # Nothing required of nothing is 0: an array that does not slide needs no slack.
         value = demand / capacity if capacity else math.inf if demand else 0.0
+        # A slope that peer review permits beyond its limit would be printed as D/C 1.20 beside OK.
         return math.nan if self.is_satisfied and value > 1.0 + _NOISE else value
 
 
@@ -195,6 +197,7 @@ def verdict_of(checks: Iterable[Check], array: str = "") -> Verdict:
     """Return the verdict on an array, or on the project: the worst of its checks."""
     worst_verdict = worst(check.verdict for check in checks if not array or array in check.arrays)
     is_project = not array and worst_verdict is Verdict.CONDITION
+    # Checks that are notes leave an OK: a note comes before OK in the order of severity.
     return Verdict.CONDITIONS if is_project else max(worst_verdict, Verdict.OK, key=severity)
 
 

@@ -90,6 +90,8 @@ _WOULD_DO = {
 
 def _would_do(run: OrientedRun) -> str:
     status, scene = run.result.status, run.scene
+    # At μ = tan θ friction just balances gravity along the slope: a block that slides after the
+    # motion never slows down, and zero padding does not help.
     if status is Status.SLIDING_AT_END and scene.friction.mu_slow <= math.tan(scene.slope_rad):
         return (
             "Provide more friction: the friction coefficient is not above "

@@ -62,6 +62,7 @@ def _with_otherwise(checks: Sequence[Check], otherwise: Mapping[str, str]) -> It
     """Yield checks, each outcome with the first that is open of those that it is the outcome of."""
     # Two overrides have one outcome, and so has one friction law of several arrays.
     carriers = dict[str, Check]()
+    # The order is stable: among open checks the first of the page carries the sentence.
     for check in sorted(checks, key=lambda check: not check.is_open):
         if check.id in otherwise:
             carriers.setdefault(otherwise[check.id], check)
@@ -103,6 +104,8 @@ def before_runs(
 def noted(checks: Iterator[Check] | tuple[()], by_runs: Collection[str]) -> Iterator[Check]:
     """Yield checks; what concerns the analysis alone is a note where nothing follows from it."""
     for check in checks:
+        # The motions are those of the whole project: their limits count as soon as one array takes
+        # its runs. A sliding velocity is that of one array.
         concerned = check.subject in by_runs if check.id == VELOCITY_ROW else bool(by_runs)
         if concerned or check.id not in _OF_ANALYSIS:
             yield check

@@ -62,6 +62,8 @@ def of_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Itera
     The pairs of the plan that lack a clearance do not say so, if they are given: those that are
     near, and those that face each other where a pathway may be left too narrow.
     """
+    # Deleting the row of a clearance must not make its pathway pass
+    # (test_evidence_never_hurts.py).
     silent = []
     for near in pairs:
         is_within = not near.given and near.gap_m <= near.reach_m + data.site.fire_lane_m

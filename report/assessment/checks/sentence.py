@@ -64,6 +64,7 @@ def _texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, 
     if isinstance(found_value, Amount) and isinstance(limit, Amount):
         is_at_least = check.sense is Sense.AT_LEAST
         if check.sense is Sense.EQUAL:
+            # `in_order` prints digits until the two show this order: equal ones print equal.
             is_at_least = (found_value.value >= limit.value) is check.is_satisfied
         return amount_texts(found_value, limit, us_first, is_at_least=is_at_least, is_both=is_both)
     first, second = (

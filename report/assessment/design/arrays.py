@@ -219,6 +219,8 @@ def assess_array(
     prescriptive = prescriptive_of(data, rules)
     peaks_m = [run.governing.prd_m for run in runs]
     analysis = provisions.analysis_value(rules, peaks_m, statistic_basis(data))
+    # A review without name, license, date and letter, of other inputs, or dated after the package
+    # removes nothing (`ProjectInput.is_peer_reviewed`).
     floor_m = provisions.analysis_floor_m(rules, prescriptive, is_reviewed=data.is_peer_reviewed)
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
@@ -247,6 +249,7 @@ def assess_array(
 
 def marked(item: ArrayAssessment, adopted: ArrayAssessment) -> ArrayAssessment:
     """Return an array with the marks of what is another number under the rule set as adopted."""
+    # True is greater than False: permitted with overrides, and not without.
     opened = OVERRIDDEN if item.is_permitted > adopted.is_permitted else ""
     marks = ArrayMarks(
         prescriptive=mark_of(item.prescriptive.value_m, adopted.prescriptive.value_m),
@@ -271,6 +274,8 @@ def _design_m(
     if math.isnan(largest_m):
         return math.nan
     if route is Route.PRESCRIPTIVE:
+        # Runs that do not qualify as an analysis reduce nothing, but one that slides farther than
+        # the prescriptive value is not ignored (test_project.py).
         return max(prescriptive.value_m, largest_m)
     # NaN first: max would drop it.
     return max(analysis.value_m, floor_m)

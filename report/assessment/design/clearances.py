@@ -81,6 +81,8 @@ class ClearanceCheck(ComparedGap):
     @property
     def ok(self) -> bool:
         """Whether the separation is sufficient; False without a permitted displacement."""
+        # Both in full precision: a separation that prints as equal may be NG, and is printed with
+        # as many digits as show it (`ComparedGap.shows`).
         return self.required_m <= self.clearance.provided_m
 
     @property
@@ -144,6 +146,8 @@ def with_displacements(
 ) -> ClearanceCheck:
     """Return a clearance of a project where some arrays slide otherwise; its marks stay."""
     slides = {**done.displacements, **changed}
+    # Of the project as entered, whose friction says which arrays are alike: a trial with other
+    # friction on one side must not make a like array unlike, with twice the factor.
     check = check_clearance(done.project, done.rules, slides, gap.clearance)
     return replace(check, design_mark=gap.design_mark, mark=gap.mark)
 

@@ -108,6 +108,8 @@ class LinkedArray:
             return math.nan
         if math.isinf(ratio):  # also where the design uses 0
             return ratio
+        # Links never reduce the value: both runs of the comparison are in one axis, and the design
+        # may be in two.
         return max(max(1.0, ratio) * design.analysis.value_m, design.floor_m)
 
     @property

@@ -126,6 +126,7 @@ def importance_factor(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: fl
 
 def are_alike(first: Array, second: Array) -> bool:
     """Whether two arrays slide alike: construction, slope, friction and downslope direction."""
+    # Directions of 359 and 1 degrees are 2 degrees apart, not 358.
     turn = (first.downslope_deg - second.downslope_deg) % 360.0
     return (
         # Arrays of one construction, slope and friction move together under one roof motion.
@@ -153,6 +154,7 @@ def largest_separation_m(
     """Return a length [m] that no separation of a project exceeds, whatever is across it."""
     designs = [array.permitted_m for array in arrays]
     i_ps = *(array.i_p for array in data.arrays), *(item.i_p for item in data.objects)
+    # An upper bound serves: it only decides which pairs of the plan need not be looked at.
     importance = max(data.site.i_e, *i_ps)
     # At least 0.0, for a minimum separation, which an array that rests must keep as well.
     largest_m = max((design_m for design_m in designs if not math.isnan(design_m)), default=0.0)

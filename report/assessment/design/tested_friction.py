@@ -75,6 +75,8 @@ def _is_fit(law: Friction, tests: Series) -> bool:
     # Too few velocities fit any law: then nothing is as tested.
     if fit is None or not fit.is_determined:
         return False
+    # By coefficients, not by the rate: two rates may give the same coefficients wherever there are
+    # runs.
     pairs = [
         (law.mu_fast, fit.law.mu_fast),
         *((law.at(v), fit.law.at(v)) for v in (0.0, *velocities) if not math.isnan(v)),
@@ -151,6 +153,7 @@ class VelocityCheck:
     @property
     def is_far(self) -> bool:
         """Whether the array may slide so fast that the tests do not show its friction."""
+        # Not `>`: NaN, of a run without a velocity or of tests without one, is far.
         return not self.fastest_mps <= MOST_BEYOND * self.tested_mps
 
     @property

@@ -50,6 +50,7 @@ def bare_sides(outline: Shape, strips: Sequence[Shape], north_deg: float) -> tup
         (x0, y0), (x1, y1) = side
         # Outlines run counterclockwise (`shapes.ring`): outward is to the right of a side.
         outward_deg = math.degrees(math.atan2(x0 - x1, y1 - y0))
+        # An L-shaped roof has two west edges: the number of the side tells them apart.
         name = f"{compass(outward_deg, north_deg)} edge of the roof"
         if isinstance(outline, Polygon):
             name += f" (side {number})"

@@ -120,8 +120,12 @@ def _renewed(
     for near in pairs:
         for entered in near.given:
             was, drawn_m = entered.clearance, _drawn_m(near, data)
+            # Only rows that a command wrote are written again: what a person entered or measured
+            # is theirs, and a difference from the plan is printed below.
             if was.source is not ClearanceSource.DRAWING:
                 continue
+            # A row may name the pair the other way round; its direction is seen from its own
+            # array.
             turned = near
             if was.array != near.array:
                 turned = replace(near, array=near.other, near=near.far, far=near.near)

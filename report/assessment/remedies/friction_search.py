@@ -94,6 +94,7 @@ class Trials:
         if which not in self._done:
             done = self.assessment if every else self._of_governing
             # Of the array alone: what is near it is compared in `check_alone`.
+            # Of the array alone: what is near it is compared in `check_alone`.
             array = with_mu(self.array.array, mu / 100)
             trial = reassess(done, done.project.changed(arrays=(array,), clearances=()))
             (self._done[which],) = trial.arrays

@@ -92,6 +92,7 @@ def _length_m(near: Shape, far: Shape, way: Point, lack_m: float) -> float:
         still_m = wanted_m - gap_m(shifted(near, (way[0] * length_m, way[1] * length_m)), far)
         if still_m <= _NOISE_M:
             return length_m + _NOISE_M
+        # It has come nearer: on its way it passes the other shape, or moves toward it.
         if still_m > lack_m + _NOISE_M:
             break
         length_m += still_m

@@ -131,6 +131,8 @@ def _enough(state: _State, remedies: Iterable[Remedy]) -> Remedies:
     alone = next((remedy for remedy in remedies if remedy.is_enough), None)
     if alone:
         return Remedies(together=(alone,), done=alone.done)
+    # One check after the other, not every combination: 12 checks with three ways each would be
+    # half a million assessments. What the end does not need is dropped below.
     state_now, taken = state, list[Remedy]()
     while state_now.failed:
         ways = (list(state_now.ways(check)) for check in state_now.failed)
@@ -226,6 +228,8 @@ def _reviewed(data: ProjectInput) -> ProjectInput:
     review = {
         "peer_reviewed": True,
         "peer_date": data.project.date,
+        # Nothing on record: the review is of the inputs as changed, whatever an earlier one
+        # covered.
         "peer_covered": "",
         **dict.fromkeys(("peer_reviewer", "peer_license", "peer_letter"), "to be entered"),
     }

@@ -64,6 +64,7 @@ def _cut(region: Outline, normal: Point, limit: float) -> Outline:
     for (x0, y0), (x1, y1) in zip(region, (*region[1:], *region[:1]), strict=True):
         over0 = x0 * normal[0] + y0 * normal[1] - limit
         over1 = x1 * normal[0] + y1 * normal[1] - limit
+        # Clipping at one edge, as by Sutherland and Hodgman (1974).
         if not over0 > 0.0:
             inside.append((x0, y0))
         if over0 * over1 < 0.0:

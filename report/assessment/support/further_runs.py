@@ -119,6 +119,7 @@ def building_variations(assessment: Assessment) -> Variations:
     data, array, prepared = assessment.project, assessment.governing, assessment.shaking.prepared
     if not any(item.roof for item in prepared):
         return ()
+    # With its period even where the structure type gives it: the variations multiply it.
     used = data.building.model_copy(update={"period_s": first_period_s(data)})
     variations = [(used, array.analysis)]
     for building in _others(used):
@@ -135,6 +136,7 @@ def _others(used: BuildingInput) -> Iterator[BuildingInput]:
         include={"period_s", "period_2_s", "transverse_s"}, exclude_none=True
     )
     for factor in PERIOD_FACTORS:
+        # All periods by one factor: a softer building is softer in each mode and direction.
         scaled = {name: min(factor * s, MOST_PERIOD_S) for name, s in periods_s.items()}
         yield used.model_copy(update=scaled)
     for percent in DAMPING_PERCENT:

@@ -110,5 +110,6 @@ def keep_clear(separation_m: float, us_first: bool) -> str:
     """Return a distance to keep clear, rounded up to 1 in or 10 mm; `unknown` for NaN."""
     if math.isnan(separation_m):
         return "unknown"  # "none" would read as no distance
+    # Minus 1e-9: 43 in of meters, divided by the inch again, are 43.00000000000001.
     steps = math.ceil(separation_m / (INCH_M if us_first else 0.01) - 1e-9)
     return f"{steps}{NO_BREAK}in" if us_first else f"{10 * steps}{NO_BREAK}mm"

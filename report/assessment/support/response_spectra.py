@@ -56,6 +56,7 @@ class Spectra:
     def lowest(self) -> tuple[float, str, float]:
         """Smallest ratio of a motion to the target, its id and period [s]; inf without a target."""
         ratio = self.sa_g / self.target_g
+        # `argmin` would return the first NaN, of a period where the target is not given.
         ratio = np.where(np.isnan(ratio), np.inf, ratio)
         motion, index = np.unravel_index(ratio.argmin(), ratio.shape)
         return float(ratio[motion, index]), self.ids[motion], float(self.periods_s[index])

@@ -54,6 +54,8 @@ def surface(assessment: Assessment, item: ArrayAssessment) -> ResponseSurface:
     )
     slopes = np.radians(degrees)
     cells = list(product(slopes.tolist(), mus.tolist()))
+    # In the governing orientation of the design alone, a quarter of the runs; at other friction
+    # another one may govern and slide farther.
     results = assessment.runs.map(partial(_cell, item), cells)
     means = [sum(run.prd_m for run in cell) / len(cell) for cell in results]
     statuses = [run.status for run in chain.from_iterable(results)]
