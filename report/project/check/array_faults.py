@@ -24,6 +24,8 @@ def friction_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
     for index, array in enumerate(inputs["arrays"]):
         law = _law(array)
         if law is not None:
+            # An array may name the reports of its own membrane; else the worst of all of them
+            # counts.
             tests = governing(tested, array.get("mu_report") or "")
             yield from _beyond(index, law, tests, _first(inputs, tests, where))
 
@@ -77,11 +79,14 @@ def _beyond(index: int, law: Friction, tests: Series, address: str) -> Iterator[
     mean, tested = tests.mean_of(law), tests.mean
     # PV1-2012: the average of the kinetic coefficients, of the worse of wet and dry.
     if mean > tested + MU_TOLERANCE:
+        # A law is compared by its mean over the velocities tested, as the tests are: it may be
+        # above some of them and below others.
         says = f"averages {mean:.3g} at the tested velocities" if by_velocity else f"is {mean:g}"
         text = f"friction coefficient {says}; the tested mean is {tested:.3g} ({tests.surface},"
         runs = f" {len(tests.runs)} runs from {address})"
         remedy = "reduce it" if by_velocity else f"enter {tested:.3g} or less"
         yield Finding.error(Place("arrays", index, "mu"), text + runs, remedy)
+    # Where none is entered it is the sliding coefficient, which is compared above.
     if law.mu_static > law.mu_slow and law.mu_static > tests.static_mean + MU_TOLERANCE:
         static = f"{tests.static_mean:.3g}"
         text = (
@@ -121,6 +126,8 @@ def _blocks(
         yield Finding.error(place, f"block friction is '{text}'", f"{remedy}, 0.50")
         return
     mu = inputs["arrays"][home.row].get("mu") if home else None
+    # The rigid block that the row is compared with has the coefficient of the array: beyond all
+    # its blocks it would be another array.
     if home is not None and mu is not None and not min(mus) <= mu <= max(mus):
         side, address = "above" if mu < min(mus) else "below", where(home._replace(field="mu"))
         fault = f"block friction is '{text}', all values {side} the {mu:g} at {address}"

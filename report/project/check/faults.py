@@ -77,6 +77,8 @@ def _tables(inputs: Inputs, where: Where) -> Iterator[Finding]:
 def _ids(inputs: Inputs, where: Where) -> Iterator[Finding]:
     # Arrays come first, so that a duplicate is reported at the object.
     for sections in UNIQUE:
+        # By how they look: RTU-1 with a Cyrillic letter is no second unit, but a slip that no eye
+        # can find.
         for place, value, first in repeated(column(inputs, sections, "id"), looks):
             text, foreign = (
                 f"ID is '{value}', already used at {where(first)}",

@@ -45,6 +45,8 @@ def _same_component(index: int, row: InputRow) -> Iterator[Finding]:
     for field, label in LABELS.items():
         if not row.get(field):
             continue
+        # Two components from one record move as one: their sum is a motion along the diagonal, 1.4
+        # times as strong.
         first = seen.setdefault(" ".join(row[field].split()), label)
         if first != label:
             text = f"{label} record is '{row[field]}', the same as the {first} record"
@@ -54,6 +56,7 @@ def _same_component(index: int, row: InputRow) -> Iterator[Finding]:
 def _scale_value(index: int, row: InputRow) -> Iterator[Finding]:
     scaling, place = row.get("scaling"), Place("motions", index, "scale_value")
     value = row.get("scale_value")
+    # A factor that is not applied: the engineer who typed 1.5 believes that the motion has it.
     if scaling in (Scaling.AS_RECORDED, Scaling.TARGET) and value not in (None, 1.0):
         text = f"factor or PPA is {value:g}, but scaling is '{scaling}'"
         yield Finding.error(place, text, "change the scaling or leave this blank")

@@ -112,6 +112,8 @@ def _scattered(inputs: Inputs, where: Where) -> Iterator[Finding]:
         name = row.get("name")
         if name is None:
             continue
+        # Rows of one outline that were moved apart would join in another order, to a ring that may
+        # be valid and wrong.
         before = last.get(name.casefold(), index - 1)
         if before != index - 1:
             address = where(Place("outlines", before, "name"))
@@ -194,6 +196,8 @@ def _overlaps(inputs: Inputs, where: Where) -> Iterator[Finding]:
             first, second = sorted(
                 (body, neighbor), key=lambda item: (not item.is_array, item.place)
             )
+            # Two objects may overlap, as a pipe over a curb does: nothing is required between
+            # them.
             if not first.is_array or frozenset((body.name, neighbor.name)) in cleared:
                 continue
             # Boxes first: shapes that are no rectangles are measured by a library.
@@ -255,6 +259,8 @@ def _room(
         return
     gap, place = gap_m(a, b), Place("clearances", index, "provided_m")
     # Shapes that touch are apart by rounding error, of either sign.
+    # Less than the plan shows is safe, and a question of `report.project.check.plausible`; more is
+    # not.
     if gap >= -1e-9 and provided <= gap + gap_tolerance_m(gap):
         return
     boxes = isinstance(a, Rectangle) and isinstance(b, Rectangle)

@@ -98,6 +98,8 @@ def outlines_of(inputs: Inputs) -> dict[str, OutlineRows]:
             by_name.setdefault(name, []).append((place._replace(field="name"), row))
     outlines = {}
     for name, rows in by_name.items():
+        # Without one of its vertices an outline is another shape, about which errors would be
+        # false.
         is_whole = all("x_m" in row and "y_m" in row for _, row in rows)
         vertices = tuple((row["x_m"], row["y_m"]) for _, row in rows) if is_whole else ()
         outlines[name] = OutlineRows(name, rows[0][0], vertices)

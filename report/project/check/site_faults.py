@@ -166,6 +166,8 @@ def _tabulated(
     if edition.name != table.edition or mapped_g is None or "site_class" not in row:
         return math.nan
     site_class = site_class_or_default(row["site_class"])
+    # An unreadable basis may be a site-specific one: no error is given that the next one would
+    # take back.
     is_studied = row.get("hazard") in (None, HazardBasis.SITE_SPECIFIC)
     has_none = is_studied or site_class not in table.rows
     return math.nan if has_none else site_coefficient(table, site_class, mapped_g)
@@ -195,6 +197,7 @@ def _sdc(row: InputRow) -> Iterator[Finding]:
         (f"S_D1 = {parameters.s_d1 or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
         (f"S_1 = {row['s_1_g'] or 0.0:g} g", "ASCE 7 section 11.6"),
     )
+    # Letters compare as categories do; the empty text of an unknown one is below A.
     required, (reason, clause) = max(zip(possible, reasons, strict=True), key=lambda by: by[0])
     if sdc < required:
         remedy = (

@@ -136,6 +136,7 @@ class ProjectInput(Frozen):
         """Return the basis of the distance of a clearance."""
         if row.source is ClearanceSource.DRAWING:
             confirmed = self.project.drawing_confirmed_date
+            # A date after that of the package is a slip of typing, and confirms nothing.
             is_confirmed = confirmed is not None and confirmed <= self.project.date
             is_confirmed &= "project" not in self.outdated
             return DistanceBasis.CONFIRMED if is_confirmed else DistanceBasis.DRAWN

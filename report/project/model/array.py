@@ -38,6 +38,8 @@ def slope_rad(value: float, unit: SlopeUnit) -> float:
     """Return a slope as an angle [rad]."""
     if unit is SlopeUnit.DEGREES:
         return math.radians(value)
+    # A roof of 100% or 12 in 12 rises at 45 degrees: the angle is that of the rise, not a share of
+    # it.
     return math.atan(value / (100.0 if unit is SlopeUnit.PERCENT else 12.0))
 
 
@@ -118,6 +120,7 @@ class Array(Placed):
     @property
     def minimum_mu(self) -> float:
         """The smallest friction coefficient at any velocity."""
+        # Static friction is never less: `report.project.check.faults` refuses it.
         return min(self.friction.mu_slow, self.friction.mu_fast)
 
     @property
@@ -166,6 +169,8 @@ class Links(Frozen):
         """Return the row of an array of some weight [N]."""
         from solver.sliding.row import BlockRow  # loads the compiler, and a workbook needs none
 
+        # Per mass of a block, W / (n g): the row knows no mass.
         stiffness = self.stiffness_n_per_m * len(self.mus) * G_MPS2 / weight_n
+        # Of critical damping, as of one block on one link: c / m = 2 ζ sqrt(k / m).
         damping = 2.0 * self.damping_ratio * math.sqrt(stiffness)
         return BlockRow(mus=self.mus, stiffness_per_s2=stiffness, damping_per_s=damping)

@@ -42,6 +42,8 @@ class RuleSetName(StrEnum):
     """Rule set to compare with: any of `solver.rules`."""
 
     _ignore_ = "_rules"
+    # A rule set of the solver is a choice of the sheet without a change here. Names in `_ignore_`
+    # are no members of an Enum.
     for _rules in RULE_SETS.values():
         vars()[_rules.code.upper().replace("-", "_")] = _rules.name
 

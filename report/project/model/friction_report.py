@@ -44,6 +44,7 @@ class FrictionTestRow(Frozen):
         return FrictionRun(
             report=self.report or report,
             surface=self.surface,
+            # NaN, not 0: a test without a velocity is not one at rest.
             velocity_mps=math.nan if self.velocity_mps is None else self.velocity_mps,
             mu=self.mu,
             mu_static=math.nan if self.mu_static is None else self.mu_static,

@@ -101,6 +101,8 @@ def gap_m(a: Shape, b: Shape) -> float:
     if isinstance(a, Rectangle) and isinstance(b, Rectangle):
         dx = max(a.x_from_m, b.x_from_m) - min(a.x_to_m, b.x_to_m)
         dy = max(a.y_from_m, b.y_from_m) - min(a.y_to_m, b.y_to_m)
+        # Both negative: they overlap in both directions. One positive: side by side; both: across
+        # a corner.
         return max(dx, dy) if max(dx, dy) < 0 else math.hypot(max(dx, 0.0), max(dy, 0.0))
     first, second = solid(a), solid(b)
     overlap = _depth_m(first.intersection(second))
@@ -165,6 +167,7 @@ def _facing(a: tuple[Point, Point], b: tuple[Point, Point]) -> tuple[float, Poin
     (x, y), (x1, y1) = a
     long = math.hypot(x1 - x, y1 - y)
     ux, uy = (x1 - x) / long, (y1 - y) / long
+    # Both ends of the other side in coordinates along and across the first one.
     along = sorted((px - x) * ux + (py - y) * uy for px, py in b)
     across = [(py - y) * ux - (px - x) * uy for px, py in b]
     low, high = max(along[0], 0.0), min(along[1], long)
@@ -183,6 +186,7 @@ def outside(shape: Shape, limit: Shape) -> Point | None:
     deep = [part for part in parts if _depth_m(part) > NEAR_M]
     if not deep:
         return None
+    # Within the part: the centroid of a U-shaped one is not.
     inside = max(deep, key=lambda part: part.area).representative_point()
     return inside.x, inside.y
 
@@ -232,6 +236,8 @@ def room(shape: Shape) -> Rectangle:
     import shapely
 
     (x, y), (on_x, on_y) = shapely.maximum_inscribed_circle(solid(shape)).coords
+    # The square in the largest circle is always within; one between coordinates of vertices may be
+    # larger, as each arm of an L is.
     half = math.dist((x, y), (on_x, on_y)) * math.sqrt(0.5)
     best = Rectangle(x - half, x + half, y - half, y + half)
     boxes = [Rectangle(*xs, *ys) for xs, ys in product(_ranges(shape, 0), _ranges(shape, 1))]
@@ -278,6 +284,7 @@ def solid(shape: Shape) -> Any:
     """Return a shape as the library knows it; a line where it has no width."""
     import shapely
 
+    # A rectangle of no width has each corner twice, and shapely refuses a polygon of two points.
     points = tuple(dict.fromkeys(shape.points))
     return shapely.Polygon(points) if len(points) > 2 else shapely.LineString(points)
 

@@ -109,6 +109,7 @@ def book_of(path: Path, data: bytes) -> OpenBook:
         parts = scan_parts({name: _content(archive, name) for name in archive.namelist()})
         scans = _scans_by_title(archive, parts)
         book = _load(data)
+    # A sheet that openpyxl left out would be missing without a word.
     if book.sheetnames != list(scans):
         raise InputError(f"its worksheets cannot all be read; {REOPEN}")
     sha256 = hashlib.sha256(data).hexdigest()
@@ -160,6 +161,7 @@ def _zip(data: bytes) -> zipfile.ZipFile:
         raise InputError("empty file; start again with a new workbook (roofslip new FOLDER)")
     # An OLE file: an .xls, or the container in which Office encrypts an .xlsx.
     if data.startswith(b"\xd0\xcf\x11\xe0"):
+        # The stream that holds an encrypted workbook ([MS-OFFCRYPTO]); OLE has names in UTF-16.
         if "EncryptedPackage".encode("utf-16-le") in data:
             raise InputError("protected with a password; save it without a password")
         raise InputError(f"an old Excel workbook (.xls) by its content; {SAVE_AS}")
@@ -191,6 +193,7 @@ def _check_sizes(archive: zipfile.ZipFile) -> None:
             f"unpacks to {total / MB:.0f} MB, more than {MAX_TOTAL // MB} MB in total or"
             f" {MAX_MEMBER // MB} MB in one part; keep records in files next to it"
         )
+    # Below 1 MB no ratio is a danger.
     if total > MB and total > MAX_RATIO * packed:
         raise InputError(f"unpacks to more than {MAX_RATIO} times its size; {REOPEN}")
 
@@ -199,6 +202,7 @@ def _check_kind(archive: zipfile.ZipFile) -> None:
     names = set(archive.namelist())
     if any(member.flag_bits & 1 for member in archive.infolist()):
         raise InputError("protected with a password; save it without a password")
+    # Macros are never run here; the package would attach them to what is handed to a plan checker.
     if any(name.lower().endswith("vbaproject.bin") for name in names):
         raise InputError(f"a workbook with macros; {SAVE_AS}")
     if "xl/workbook.bin" in names:
@@ -255,6 +259,8 @@ def sheet_parts(archive: zipfile.ZipFile) -> list[tuple[str, str]]:
         for element in _tree(archive, _WORKBOOK).iter()
         if element.tag.rpartition("}")[2] == "sheet"
     ]
+    # Excel makes no such file, and its references to a sheet by its name would be to either of
+    # them.
     for title, count in Counter(title.casefold() for title, _ in listed).items():
         if count > 1:
             raise InputError(f"two worksheets have the name '{title}'; rename one")
@@ -269,12 +275,16 @@ def _tree(archive: zipfile.ZipFile, name: str) -> Any:
 
 
 def _load(data: bytes) -> Workbook:
+    # openpyxl asks for lxml once, as it is loaded, and would write other workbooks with it
+    # (`report/__init__.py`).
     if LXML:
         raise DefectError("openpyxl reads through lxml; import report before it")
     try:
         with warnings.catch_warnings():
             # It warns about features that it drops, none of which is an input.
             warnings.simplefilter("ignore")
+            # Values alone: formulas are kept by the scan, for openpyxl gives one or the other.
+            # Links to other workbooks are not followed in any case.
             return load_workbook(io.BytesIO(data), data_only=True, keep_links=False)
     except Exception as error:  # a damaged workbook makes openpyxl raise almost anything
         raise InputError(f"damaged, or not as Excel writes it; {REOPEN}") from error

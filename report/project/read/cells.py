@@ -36,6 +36,7 @@ from solver.model import INCH_M
 _WITH_UNIT = re.compile(
     r"[+-]?[0-9]+(?:\.[0-9]*)?\s*(?:[A-Za-z]{1,4}|['\"°%]|''|[A-Za-z]+/[A-Za-z0-9]+)\.?"
 )
+# ECMA-376-1, 22.9.2.19 (ST_Xstring): `_xHHHH_` in the text of a cell is a character by its number.
 _ESCAPE = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 # A date before it is refused, as by the sheet's own check.
 EARLIEST = date(2000, 1, 1)
@@ -157,6 +158,7 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, stated: str = "")
         value = inches * INCH_M / si
     else:
         value = number(cell, remedy, unit or stated)
+        # Excel stores every number as a floating-point one: 6 stories are 6.0.
         value = int(value) if entry.kind is int and value.is_integer() else value
     if isinstance(value, float):
         value *= si
@@ -227,6 +229,7 @@ def number(cell: Found, remedy: str = "enter a number", unit: str = "") -> float
         return _number_in_text(value.strip(), remedy, unit)
     if isinstance(value, bool):
         raise CellError(f"is {plain(value)}, a logical value", remedy)
+    # A number that Excel took for a date, as 3-5 typed for a range is March 5.
     if isinstance(value, date | time | timedelta):
         raise CellError(f"is a date or time ({plain(value)})", f"{remedy}, formatted as a number")
     # Whole numbers of any length are read as such; `float` has no value for 400 digits.
@@ -251,6 +254,8 @@ def _number_in_text(text: str, remedy: str, unit: str) -> float:
     if math.isfinite(value):
         return value
     if math.isfinite(rise):
+        # 1/2 in. in 12 is a rise only where the column of units says so: in degrees it would be
+        # read as half a degree.
         if choice_in(unit, SlopeUnit) == SlopeUnit.IN_PER_12:
             return rise
         raise CellError(
@@ -300,6 +305,7 @@ def _choice(cell: Found, entry: Entry, remedy: str) -> StrEnum | bool:
 
 
 def _text(cell: Found) -> str:
+    # A project number such as 3-5 that Excel took for a date cannot be told from a date any more.
     if isinstance(cell.value, date | time | timedelta | bool):
         raise CellError(
             f"is {plain(cell.value)}, which is not text", "format the cell as text and retype it"

@@ -80,6 +80,7 @@ def changed(
         if sheet.get("name") in filled:
             # What is written on a hidden sheet would be a warning of the next `check`.
             sheet.attrib.pop("state", None)
+    # Excel computes a workbook with this mark as it opens it; LibreOffice does not, hence `stale`.
     for calculation in book.iter("{*}calcPr") if recalculates else ():
         calculation.set("fullCalcOnLoad", "1")
     files["xl/workbook.xml"] = _written(book)
@@ -91,6 +92,8 @@ def changed(
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as packed:
         for member in members:
             if member.filename in files:
+                # By its own entry, with its date and order: what is not changed stays the same to
+                # the byte when unpacked.
                 packed.writestr(member, files[member.filename], member.compress_type)
     return out.getvalue()
 
@@ -204,6 +207,8 @@ def _put(cell: Any, value: Value) -> None:
         return etree.SubElement(parent, etree.QName(etree.QName(cell).namespace, tag))
 
     del cell[:]
+    # The type of the content that was there: a number under t="s" would be read as the number of a
+    # shared string.
     cell.attrib.pop("t", None)
     match value:
         case None:
@@ -281,6 +286,8 @@ def _longer_tables(
             if value is not None and left <= column <= right
         }
         last = bottom
+        # Excel itself makes a table longer as one types below it; in the file its range says where
+        # it ends.
         while last + 1 in filled:
             last += 1
         # Rows that are typed below a row of totals are no part of the table.

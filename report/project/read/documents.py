@@ -37,6 +37,8 @@ def path_beside(
     # A path may have been typed on Windows, and is read on any system.
     name = name.replace("\\", "/")
     where = f"use a file in the workbook's folder, such as {example}"
+    # By the rules of both systems: the workbook of a stranger must not attach a file of this
+    # computer to a package that is sent on.
     if PurePosixPath(name).is_absolute() or PureWindowsPath(name).drive or ".." in name.split("/"):
         raise InputError(f"'{name}' is outside the workbook's folder; {where}")
     try:
@@ -128,6 +130,8 @@ def read_documents(book: OpenBook, inputs: Inputs) -> tuple[tuple[Document, ...]
 def _document(book: OpenBook, entry: Entry, name: str, bytes_left: int) -> Document:
     example = str(entry.example)
     file = path_beside(book.path.parent, name, MAX_DOCUMENTS, example)
+    # Read once, and hashed and attached from memory: whatever lies there by then, the package
+    # holds what was checked.
     content = read_file(file, MAX_DOCUMENTS, f"'{name}'", too_large="shrink it")
     years = _years(name, content) if entry.name == "study_years" else None
     if years is None and not content.startswith(b"%PDF-"):

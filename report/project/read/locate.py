@@ -90,6 +90,8 @@ def find_table(book: OpenBook, section: SheetSection) -> TableFound:
     columns, further, absent, problems = _columns(book, section, headings)
     used = [column.number for column in columns.values()]
     # Tables may lie below each other on one sheet.
+    # To the last value of the sheet, not of the table: rows that were typed or pasted below it
+    # would be lost without a word.
     last_row = min(book.extent(sheet.title).last_row, _next_table(sheet, top, used) - 1)
     problems += _merged(sheet, top, last_row, used)
     return TableFound(
@@ -323,6 +325,7 @@ def _named(book: OpenBook, name: str) -> CellPosition | None:
     if area is None:
         return None
     title, (left, top, *end) = area
+    # A name that was stretched over several cells is none: which of them is meant nobody can tell.
     return CellPosition(title, top, left) if [left, top] == end else None
 
 

@@ -75,6 +75,8 @@ def shows_nothing(code: str, value: object) -> bool:
         return len(sections) > 3 and "@" not in sections[3].digits
     if isinstance(value, bool) or not isinstance(value, int | float):
         return False
+    # Excel takes the first section for all numbers if it is alone, else the second one for those
+    # below 0 (ECMA-376-1, 18.8.31).
     by_sign = 0 if value > 0 or len(sections) == 1 else 1
     if value == 0:
         by_sign = 2 if len(sections) > 2 else 0
@@ -82,6 +84,7 @@ def shows_nothing(code: str, value: object) -> bool:
 
 
 def _misleading(section: _Section, unit: str) -> str:
+    # 0.0, shows 45,000 as 45.0: the engineer sees another number than is used.
     if scale := _SCALE.search(section.digits):
         return f"divided by {1000 ** len(scale[1]):,}" if len(scale[1]) < 5 else "divided"
     unit_of_column, named = unit_named(unit) or unit, []

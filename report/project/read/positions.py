@@ -26,6 +26,7 @@ MAX_COLUMNS = 200
 SCANNED_ROWS = 200
 FRESH = "copy it from a new workbook (roofslip new FOLDER)"
 _HEADING = re.compile(r"(.*?) ?(?:\[([^\[\]]*)\])?")
+# Excel doubles an apostrophe in the title of a sheet, and quotes a title with blanks.
 _AREA = re.compile(r"(?:'((?:[^']|'')+)'|([^'!]+))!(\$?[A-Z]+\$?[0-9]+(?::\$?[A-Z]+\$?[0-9]+)?)")
 
 

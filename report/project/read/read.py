@@ -116,6 +116,8 @@ def read_as(
             else:
                 _read_block(book, section, gathered)
         except InputError as error:
+            # Faults that only follow from the missing table are left out (`located_problems`):
+            # without Arrays every clearance would name an unknown one.
             gathered.unfound.add(section.key)
             gathered.add(Place(section.key), error.parts)
     # Also where cells could not be read: every error is told at once.
@@ -237,9 +239,12 @@ def _read_table(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
             name: found_at(book, CellPosition(sheet, number, column.number))
             for name, column in table.columns.items()
         }
+        # Blank rows are passed over, within a table as well: people leave them between groups.
         if not all(cell.is_blank for cell in cells.values()):
             rows = gathered.inputs[section.key]
             row = {name: section.entry(name).default for name in table.absent}
+            # Before its cells are read: a row with an unreadable cell has its place, and the
+            # others keep theirs.
             rows.append(row)
             for entry in section.entries:
                 if cell := cells.get(entry.name):

@@ -69,6 +69,7 @@ class Budget:
         self.others -= areas.count(" ")
         if element in ("c", "row"):
             self.cells -= 1
+        # Values are within cells, which are counted.
         elif element not in _VALUES:
             self.others -= 1
         if self.cells < 0:
@@ -172,6 +173,7 @@ class Scan(ContentHandler):
     def _typed(self, cell: str, attributes: Mapping[str, str], text: str) -> tuple[str, str]:
         kind, index = attributes.get("t"), attributes.get("si", "")
         if kind == "dataTable":
+            # A what-if table has no formula text: Excel shows it as TABLE.
             return "=TABLE()", cell
         formula = f"={text}", cell
         if kind != "shared":
@@ -206,6 +208,7 @@ def scan_parts(parts: Mapping[str, bytes]) -> dict[str, Scan]:
     can.
     """
     markup = {name: data for name, data in parts.items() if _is_xml(name, data)}
+    # Counted in the bytes, before any parser begins: 10 MB of `<a>` are 3 million elements.
     tags = sum(data.count(b"<") for data in markup.values())
     if tags > MAX_TAGS:
         raise InputError(

@@ -41,6 +41,7 @@ def number_in(text: str) -> float:
     """Return the number in a text: `0.45`, `0,5`, `1,234.5`, `4 1/2`; else NaN."""
     text = text.replace("\u2212", "-")
     mixed = _MIXED.fullmatch(plain_marks(text))
+    # 4 13/8 is a slip of typing.
     if mixed and Fraction(mixed[2]) < 1:
         return float(mixed[1]) + float(Fraction(mixed[2]))
     # A comma before three digits has two meanings.
@@ -69,6 +70,7 @@ def inches_in(text: str) -> float:
     """Return a length with marks [in]: `28'-6"`, `4'`, `3 1/2"`; NaN for another text."""
     text = plain_marks(text)
     match = _FEET.fullmatch(text)
+    # A bare 4 fits the pattern, too: without a mark the unit is that of the column.
     if not match or not text.endswith(("'", '"')):
         return math.nan
     share = Fraction(match["share"] or match["only"] or 0)
@@ -83,6 +85,7 @@ def inches_in(text: str) -> float:
 
 def rise_in(text: str) -> float:
     """Return the rise in 12: `1/2:12`, `0.5 in 12`, `1/4"/ft`, `1:24` is 0.5; NaN for none."""
+    # Below 1 it would be steeper than 45 degrees, which is refused.
     if (one_in := _ONE_IN.fullmatch(text)) and float(one_in[1]) >= 1.0:
         return 12.0 / float(one_in[1])
     match = _RISE.fullmatch(plain_marks(text))
@@ -108,6 +111,7 @@ def dates_in(text: str) -> list[date]:
                 continue
         return dates
     plain = " ".join(re.sub(r"[.,/-]", " ", _BESIDE_DATE.sub("", text.casefold())).split())
+    # `strptime` knows Sep and September alone.
     plain = plain.replace("sept ", "sep ")
     for pattern in _DATES:
         try:
@@ -119,6 +123,8 @@ def dates_in(text: str) -> list[date]:
 
 def separator(lines: Collection[str]) -> str:
     """Return what separates the columns of a CSV: what most of its lines have, `;` before `,`."""
+    # A semicolon goes before a comma of as many lines: where it separates, the comma is a decimal
+    # one.
     return max(";\t,", key=lambda mark: sum(mark in line for line in lines))
 
 

@@ -204,6 +204,7 @@ class _Sight:
         return tuple(dict.fromkeys((*of_place, *self._styles[style], *blanked)))
 
     def _of_place(self, row: int, column: int) -> Sequence[Concealment]:
+        # On a hidden sheet everything is hidden: its rows and columns say nothing more.
         if self._is_hidden:
             return (Concealment.SHEET,)
         if row in self._rows:
@@ -245,6 +246,7 @@ def _rgb(color: Color | None, default: tuple[int, ...]) -> tuple[int, ...]:
     # The first two of eight digits are the opacity, which programs set as they like.
     if color.type == "rgb":
         return tuple(bytes.fromhex(str(color.rgb)[-6:]))
+    # Lightened or darkened by a share of the theme's color, which is not known here.
     if color.tint:
         return ()
     if color.type == "theme":
@@ -312,6 +314,7 @@ def not_calculated(book: OpenBook, used: Used, of_book: Place) -> Iterator[Findi
     """Yield a warning if the values of formulas may not follow from the cells they refer to."""
     says = book.calculation
     read = [(place, cell.address) for place, cell in used if cell.formula]
+    # Written by Excel where calculation is manual, or was stopped (ECMA-376-1, 18.2.2).
     if says.get("calcCompleted", "1") in ("0", "false"):
         manual = " (calculation is manual)" if says.get("calcMode") == "manual" else ""
         why = f"was saved before its formulas were calculated{manual}"

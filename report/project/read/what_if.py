@@ -25,6 +25,7 @@ Typed = float | str | None
 
 def retyped(sheet: Sheet, typed: Mapping[Place, Typed]) -> Sheet:
     """Return a workbook with other values and their problems; the echo stays that of the file."""
+    # A copy of each row: the sheet is that of the file, to which the page goes back.
     inputs = {key: [dict(row) for row in rows] for key, rows in sheet.inputs.items()}
     gathered = Gathered(inputs=inputs, addresses=dict(sheet.addresses), unfound=set(sheet.unfound))
     for place, value in typed.items():

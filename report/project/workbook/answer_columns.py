@@ -142,12 +142,16 @@ _OVER_PARAPET = """
     LOOKUP(2,1/(arrays_id=[array]),arrays_cg)*VLOOKUP(arrays[#cg_height_m],inches,2,0)
     +rule_parapet_over_cg_in)),"")
 """
+# In the order of the package: an object by its kind, and whether its parapet qualifies; else an
+# array, alike or not by the text of its column. 1e-8 in is rounding of a change of units.
 _NEIGHBOR = """
     IFERROR(IF([object]="","",IFERROR(VLOOKUP(LOOKUP(2,1/(objects_id=[object]),objects_kind),kinds,
     IF(MAX([over_parapet],-1)<-0.00000001,2,3),0),
     INDEX(neighbors,IF(LOOKUP(2,1/(arrays_id=[object]),arrays_kind)
     =LOOKUP(2,1/(arrays_id=[array]),arrays_kind),1,3),1))),"")
 """
+# SUMPRODUCT takes a product of columns without being typed as an array formula. All edges begin
+# with `edge`, and have I_e.
 _IMPORTANCE = f"""
     IFERROR(IF([neighbor]="","",IF(rule_importance="{IN_DISPLACEMENT}",1,IF(LEFT([neighbor],4)="edge",
     live_i_e,MAX(1,SUMPRODUCT(MAX(((arrays_id=[array])+(arrays_id=[object]))*arrays_i_p)),
@@ -157,6 +161,7 @@ _IMPORTANCE = f"""
 
 def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
     times = _times(unit)
+    # N makes 0 of the dash that stands for the minimum of a rule set without one.
     required = f"""
         IFERROR(MAX(INDEX(rule_separations,VLOOKUP([neighbor],neighbors,2,0))*[importance]*live_prescriptive,
         (VLOOKUP([neighbor],neighbors,2,0)={SEPARATION_ROWS[Neighbor.EDGE]})
@@ -190,6 +195,8 @@ def _coefficient(mapped: str, symbol: str) -> str:
     # The columns go down, from one above all to one at 0: the first of the two is at or above.
     pair = f"MATCH({mapped},{symbol}_at,-1)-1,1,2"
     row = f"MATCH(site_site_class,{symbol}_class,0)"
+    # FORECAST through two points is linear interpolation. Outside of the edition with tables it
+    # divides by FALSE, an error, which leaves the cell blank.
     value = f"FORECAST({mapped},OFFSET({symbol}_at,{row},{pair}),OFFSET({symbol}_at,0,{pair}))"
     return f'IFERROR({value}/({_HAS_TABLES}),IF(COUNT({mapped}),"not in table",""))'
 

@@ -50,6 +50,8 @@ class Bounds:
         return f"{low} to {below}"
 
 
+# Equal by identity, as each is made once: caches have sections as keys, and would hash every note
+# of theirs.
 @dataclass(frozen=True, slots=True, eq=False)
 class Entry:
     """An input: a single cell, or a column of a table."""

@@ -187,8 +187,11 @@ def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChang
 
     Raises `InputError` if the workbook cannot be read or written, or a program has it open.
     """
+    # A workbook that is a link is changed where it lies: to replace the link would leave two
+    # workbooks.
     path = Path(os.path.realpath(source)) if source.is_file() else located(source)
     check_plain(path, path.parent)
+    # Read only within the lock: what another command wrote before it is kept.
     with locked(path.parent):
         for pattern in _OPEN_ELSEWHERE:
             if os.path.lexists(lock := path.with_name(pattern.format(path.name))):
@@ -200,6 +203,8 @@ def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChang
         yield change
         # A command that changes nothing leaves the file, its time and the copy as they are.
         if change.files or change.book.data != change.before.data:
+            # The workbook goes last: where its cells name a file or the copy is asked for, these
+            # are there.
             copy = {f"{path.stem}{BEFORE}": change.before.data} if keeps_copy else {}
             write_all({**change.files, **copy, path.name: change.book.data}, path.parent)
 
@@ -282,6 +287,8 @@ def withdrawn(change: WorkbookChange) -> list[str]:
     row = before.inputs["project"][0] if before.inputs["project"] else {}
     fields = ("drawing_confirmed_by", "drawing_confirmed_date", "drawing_covered")
     stated = {Place("project", 0, field): row[field] for field in fields if row.get(field)}
+    # As they are read, not as cells: rows that were sorted, or the same distance in another unit,
+    # are the same distances.
     if not stated or _drawn(before) == _drawn(read_book(change.book)):
         return []
     emptied = cells(before, dict.fromkeys(stated))
@@ -310,6 +317,8 @@ def references(formula: str) -> Sequence[str]:
         tokens: Sequence[Token] = Tokenizer(formula).items
     except (TokenizerError, IndexError):  # the second of a bracket that closes nothing
         return [""]
+    # A colon among the operators joins the results of functions, as A1:INDEX(…) does: which cells
+    # it spans is known to Excel alone.
     operators = "".join(token.value for token in tokens if token.type != Token.OPERAND)
     if not tokens or _COMPUTED.search(operators):
         return [""]

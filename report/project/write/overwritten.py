@@ -64,11 +64,13 @@ def _blue(book: OpenBook) -> Iterator[CellPosition]:
 
 def formula_findings(lost: Sequence[Overwritten]) -> Iterator[Finding]:
     """Yield a warning for each run of cells below each other."""
+    # Reversed, so that of several sections on a sheet the first one stays.
     keys = {section.sheet: section.key for section in reversed(SECTIONS)}
 
     def key(numbered: tuple[int, Overwritten]) -> tuple[str, int, int, bool]:
         count, item = numbered
         position = item.position
+        # Row less count is the same for cells below each other: they are one warning.
         return position.sheet, position.column, position.row - count, item.is_broken
 
     for _, group in groupby(enumerate(lost), key):

@@ -65,6 +65,7 @@ def write_rules(book: Workbook, tables: layout.Tables) -> None:
     last = first + len(ALLOWED) - 1
     layout.name_range("rule_names", sheet, f"$A${first}:$A${last}")
     separations = [first + [*ALLOWED].index(key) for key in dict.fromkeys(SEPARATION_KEYS.values())]
+    # Formulas index it by `SEPARATION_ROWS`, whose order is that of these keys.
     layout.name_range("rule_separations", sheet, f"$C${separations[0]}:$C${separations[-1]}")
     _write_facts(sheet, tables["overrides"], last + 2)
     sheet.freeze_panes = f"B{first}"

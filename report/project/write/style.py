@@ -135,12 +135,15 @@ def style_input(cell: Any, kind: type[Any]) -> None:
     if kind is date:
         cell.number_format = "yyyy-mm-dd"
     elif kind not in (int, float):
+        # Text, or Excel makes a date of 3-5 and a number of 007.
         cell.number_format = "@"
 
 
 def make_plain_when_filled(sheet: Worksheet, cells: str) -> None:
     """Have the input cells of a range lose their color once something is typed."""
     first, _, _ = cells.partition(":")
+    # Relative to the first cell of the range, as formulas of conditional formats are: each cell
+    # asks of itself.
     filled = Rule(type="expression", dxf=PLAIN, formula=[f"NOT(ISBLANK({first}))"])
     sheet.conditional_formatting.add(cells, filled)
 
@@ -169,6 +172,7 @@ def in_cell(value: object, unit: Unit | None) -> str | float | int | date | None
         case StrEnum():
             return str(value)
         case float() if unit is not None:
+            # 12 digits: 1.0922 m are 43 in, not 43.00000000000001.
             return float(f"{value / unit.si:.12g}")
         case str():
             return escaped(value)
@@ -201,6 +205,8 @@ def validate(sheet: Worksheet, cells: str, entry: Entry, si: float) -> None:
 
 def offer(sheet: Worksheet, cells: str, choices: Collection[str], title: str, message: str) -> None:
     """Add a dropdown of texts that accepts nothing else."""
+    # Excel takes at most 255 characters of a list; the longest here, the content of layers, has
+    # 105.
     rule = DataValidation(type="list", formula1=f'"{",".join(choices)}"')
     _add(sheet, cells, rule, title, message, f"choose {', '.join(choices)}")
 
