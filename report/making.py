@@ -91,6 +91,8 @@ def make(
     assessment = assess(sheet, motions)
     changed = NO_FORMER
     if earlier:
+        # Before the changes: a revision that is issued again is a condition of this package, and
+        # one of its changes.
         assessment = with_reissue(assessment, earlier)
         changed = changes(earlier, assessment)
         check_listed(changed)
@@ -117,6 +119,7 @@ def make(
     browser_page = page(html, assessment, short, results) if has_page else b""
     contents = zip(OUTPUTS, (pdf, browser_page, plan, tables, results), strict=True)
     outputs = {name: content for name, content in contents if content}
+    # Last, and all at once: a run that fails leaves the files of the one before.
     publish(outputs, folder, OUTPUTS)
     return Made(assessment, folder, outputs, changed, *sheet_counts)
 
@@ -127,6 +130,7 @@ def _read_inputs(source: Path, out: Path | None, since: Path | None) -> tuple[Sh
     Warns of motions that came from other sources.
     """
     sheet = read(source)
+    # Before the runs, as all that can refuse the input is: they take most of the time.
     check_letters(sheet)
     folder = output_folder(out, sheet.path.parent, "out", OUTPUTS)
     if out is None:
@@ -151,6 +155,7 @@ def _record_confirmations(sheet: Sheet, motions: Shaking, tell: Callable[[str], 
     where = f"{sheet.path}: {', '.join(position.address for position in new)}"
     try:
         with changing(sheet.path, keeps_copy=False) as change:
+            # What was read, and not what somebody saved since, is what was confirmed.
             if change.book.sha256 != sheet.sha256 or not os.access(sheet.path, os.W_OK):
                 raise InputError("the workbook is read-only, or was saved in the meantime")
             change.note(new)

@@ -153,6 +153,8 @@ class Runs:
         for array in arrays:
             scene = scene_key(array)
             for motion in motions:
+                # By identity: results are kept by the id of a motion, and another motion of that
+                # id would get them.
                 if self._motions.setdefault(motion.id, motion) is not motion:
                     raise DefectError(f"{motion.id} is not the same motion as in the earlier runs")
                 names = self._names(array, motion)

@@ -59,5 +59,7 @@ def filled(
             return below[-1]
 
         values = {"template": section.template, "drawings": section.charts, "sub": sub}
+        # The template numbers its subsections as it is printed: only then are the parts below
+        # known.
         html = rendered(folder, "section.html", {**context, **section.content, **values})
         yield replace(part, parts=tuple(below)), Markup(html)

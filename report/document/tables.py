@@ -119,6 +119,7 @@ def _placed(
         style = f"{aligns[at]} long" if is_long else aligns[at]
         placed.append((text, cell[len(text) :], 1, style))
         at += 1
+    # A cell too many would move every number after it under another heading.
     if at != len(aligns):
         raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
     return placed

@@ -58,6 +58,7 @@ def _environment(folder: Path) -> Environment:
 
     environment = Environment(
         loader=FileSystemLoader(folder),
+        # Compiled anew in each process, templates took 9% of the processor time of a report.
         bytecode_cache=_kept(folder / "__pycache__"),
         # A name that is missing is an error: an empty place would go unseen under a seal.
         undefined=StrictUndefined,

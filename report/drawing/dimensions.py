@@ -66,6 +66,8 @@ def draw_numbers(plan: PlanSheet) -> Sequence[Lane]:
 def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
     """Write what is provided, once for all equal gaps; where they differ in kind, for which."""
     for provided, equal in grouped_by(lanes, lambda lane: _provided(plan, lane.gap)).items():
+        # `typ.` on a drawing means that the others are the same: of another factor they are not,
+        # though they measure the same.
         kinds = grouped_by(equal, lambda lane: _kind(plan, lane.gap))
         if len(kinds) > 1 and len(equal) <= _MOST_NAMED:
             numbers = sorted(lane.gap.of.number for lane in equal)
@@ -85,6 +87,7 @@ def lane_of(paper: Paper, gap: Gap) -> Lane:
     """Return the lane of a gap."""
     dx, dy = gap.b[0] - gap.a[0], gap.b[1] - gap.a[1]
     long = math.hypot(dx, dy)
+    # A quarter turn from the gap: a label slides along the facing sides, and stays between them.
     along = (-dy / long, dx / long) if long else (1.0, 0.0)
     area = between(gap.of.near, gap.of.far)
     # Between two corners nothing faces: a label has no way to slide.
@@ -99,6 +102,7 @@ def lane_of(paper: Paper, gap: Gap) -> Lane:
 def _steps(start: float, end: float) -> Iterator[float]:
     """Yield distances on both sides, the nearest first."""
     for step in range(max(math.floor((end - start) / _STEP_IN + 1e-9), -1) + 1):
+        # As keys, so that 0 and -0, or one distance on both sides, come once and in order.
         yield from {start + step * _STEP_IN: 0, -start - step * _STEP_IN: 0}
 
 
@@ -119,6 +123,8 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
             maximum=plan.leader_in,
         )
         if frame is None:
+            # What is not on the plan is listed below it: a clearance must not be missing because a
+            # roof is crowded.
             plan.unnamed.append(gap.name)
             return lane
         plan.leader(gap.middle, frame)

@@ -64,6 +64,7 @@ def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
     labels = list(_array_labels(plan, array))
     (wide, tall), name = (text_size(lines, first_bold=True) for lines in (labels[0], labels[-1]))
     middle = plan.room(array.id).middle
+    # Only avoided: the full label gives way to a clearance, the name alone does not.
     plan.paper.placer.avoid(centered(*middle, wide + ARROW_IN, tall))
     reserved = centered(*middle, *name)
     plan.paper.placer.take(reserved)

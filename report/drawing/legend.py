@@ -53,6 +53,7 @@ def key_on_paper(plan: PlanSheet) -> Paper:
 
 def _rows(symbols: Sequence[Look], wide_in: float) -> int:
     """Return the fewest rows, three or more, whose columns are as wide as the plan or less."""
+    # As tall as north and the scale bar beside them.
     rows = 3
     while rows < len(symbols):
         columns = (symbols[start : start + rows] for start in range(0, len(symbols), rows))

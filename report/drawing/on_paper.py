@@ -228,6 +228,8 @@ def _draw(plan: PlanSheet, extent: Rectangle) -> None:
     if plan.size.is_full:
         draw_coordinates(plan, extent)
     label_edges(plan, extent)
+    # Names hold their room first, dimensions slide around it, and labels then take what is left:
+    # an array without a name is the worst of the three.
     names = [reserve_name(plan, array) for array in plan.assessment.arrays]
     spots = list(filter(None, [name_spot(plan, item) for item in plan.placed]))
     for spot in spots:

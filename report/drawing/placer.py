@@ -88,6 +88,8 @@ class _Frames:
         """Add frames."""
         start, self._count = self._count, self._count + len(rows)
         if self._count > len(self._room):
+            # Room for as many again: a table that was copied for each label took the square of
+            # their number.
             self._room = np.vstack((self._room, np.empty((self._count, 4))))
         self._room[start : self._count] = rows
 
@@ -148,6 +150,8 @@ class Placer:
 
     def take_segment(self, a: Point, b: Point) -> None:
         """Reserve a line between two points: no label will touch it, leaders may cross it."""
+        # As small squares: frames are parallel to the axes, and that of an oblique line would
+        # cover all between its ends.
         count = max(1, math.ceil(math.dist(a, b) / 0.06) - 1)
         (x, y), dx, dy = a, (b[0] - a[0]) / count, (b[1] - a[1]) / count
         self._threads.add([centered(x + k * dx, y + k * dy, 0.02, 0.02) for k in range(count + 1)])
@@ -224,7 +228,9 @@ def _best(
     if not len(low):
         return np.inf, None
     cost = np.hypot(*(low + size / 2 - near).T)
+    # Covering a line is as bad as being 0.6 in farther away, crossing a dimension line 0.5 in.
     cost += 0.6 * _touches(low, low + size, lines, 0.015).sum(axis=1)
+    # Stable: of places of one cost the first, on every machine.
     first = np.argsort(cost, kind="stable")[:_TRIED]
     low, cost = low[first], cost[first]
     total = cost + 0.5 * _crossings(low, low + size, near, threads)

@@ -97,6 +97,7 @@ def write_dxf(plan: PlanDrawing) -> bytes:
     # Its only switch for files without the time of writing and random identifiers.
     ezdxf.options.write_fixed_meta_data_for_testing = True  # type: ignore[attr-defined]
     document = new(_VERSION, units=ezdxf.units.FT if plan.is_feet else ezdxf.units.M)
+    # 0 loads the patterns of hatches and lines in inches, 1 those in millimeters.
     document.header["$MEASUREMENT"] = 0 if plan.is_feet else 1
     document.appids.add(APPLICATION)
     # In heights of the texts, so that a dash shows at any size of roof.
@@ -138,6 +139,7 @@ def write_dxf(plan: PlanDrawing) -> bytes:
         document.classes.add_class(kind)
     out = io.StringIO()
     document.write(out)
+    # DXF is in UTF-8 from AutoCAD 2007 on.
     return out.getvalue().encode("utf-8")
 
 
@@ -185,14 +187,18 @@ def _add_style(document: Drawing, plan: PlanDrawing) -> None:
         dxfattribs={
             "dimtxt": plan.height,
             "dimgap": 0.5 * plan.height,
+            # Ticks of this size in place of arrows, as structural drawings have them.
             "dimtsz": 0.4 * plan.height,
+            # The plan is in feet or meters, and lengths are read in inches or millimeters.
             "dimlfac": per_unit,
             "dimdec": decimals,
             "dimzin": 0,
             "dimdsep": ord("."),
+            # No extension lines: the ends of a gap are the outlines themselves.
             "dimse1": 1,
             "dimse2": 1,
             "dimtfill": 1,  # of the background: a text lies over outlines
+            # Texts are horizontal, inside and outside of their lines.
             "dimtih": 1,
             "dimtoh": 1,
         },
@@ -213,6 +219,8 @@ def _add_dimension(space: Modelspace, dimension: PlanDimension) -> None:
         dxfattribs={"layer": dimension.layer.title},
     )
     drawn.set_location(dimension.at, leader=dimension.has_leader)
+    # The picture of a dimension is a block of its own: programs that only show a DXF draw nothing
+    # else.
     drawn.render()
     if not dimension.words:  # the library leaves out its point, which it needs to read it
         drawn.dimension.dxf.text_midpoint = (*dimension.at, 0.0)
@@ -224,6 +232,8 @@ def _add_dimension(space: Modelspace, dimension: PlanDimension) -> None:
 
 def _coded(words: str) -> str:
     """Return a text in which nothing begins a code."""
+    # %%d is a degree sign in DXF and %%% one percent sign; ^J is a line feed, and a caret with a
+    # blank is a caret.
     return _plain(words).replace("%%", "%%%%%%").replace("^", "^ ")
 
 

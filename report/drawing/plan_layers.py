@@ -88,6 +88,7 @@ class PlacedTexts:
                 self._write(layer, id, text, label)
                 break
         if not label or text is key:
+            # Listed below the drawing: every array and object is named, whatever the room.
             self.left.append((id, f"{key} {words}"))
 
     def _beside(self, id: str, words: str, start: Point) -> Frame | None:
@@ -349,6 +350,7 @@ def gap_cells(gap: PlanGap, us_first: bool) -> Sequence[str]:
 def array_cells(assessment: Assessment, array: ArrayAssessment) -> Sequence[str]:
     """Return the row of an array: how far it moves, what is kept clear of it, and its slope."""
     us_first, verdict = assessment.project.us_first, assessment.array_verdict(array).value
+    # The fonts of a CAD program may lack the true minus sign.
     slope = number(math.degrees(array.array.slope_rad), 2).replace("−", "-")
     turned = (f"{slope} deg", f"{array.array.downslope_deg:.0f} deg", verdict)
     if math.isnan(array.permitted_m):

@@ -77,6 +77,7 @@ def fitted_schedule(
     arrays_tall = _AROUND_ARRAYS_IN
     arrays_tall += ROW_IN * sum(_lines(row.ids, _IDS_IN) for row in arrays)
     has_arrays = size.columns > 0 and arrays_tall <= room
+    # The table of arrays stands above the first column of the schedule alone.
     if has_arrays:
         room -= arrays_tall
     tall = [
@@ -86,6 +87,7 @@ def fitted_schedule(
     rows: list[int] = []
     for _ in range(size.columns):
         used = accumulate(tall[sum(rows) :], initial=_AROUND_SCHEDULE_IN)
+        # Less one: the first of the heights is that of no row.
         rows.append(max(sum(height <= room for height in used) - 1, 0))
         room = size.tall + _BELOW_IN
     return Schedule(has_arrays, rows)

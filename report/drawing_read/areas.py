@@ -108,6 +108,8 @@ def outlines(areas: Sequence[Any], tolerance: float) -> tuple[list[list[Point]],
     half = 0.5 * tolerance
     # The library finds the corner of a spike by dividing by its width, and then does without it.
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        # Grown and shrunk again by half the tolerance: faces whose borders miss each other by
+        # rounding become one.
         grown = shapely.union_all([area.buffer(half, join_style="mitre") for area in areas])
         shrunk = shapely.get_parts(grown.buffer(-half, join_style="mitre"))
     parts = [part for part in shrunk if part.geom_type == "Polygon" and not part.is_empty]
@@ -119,6 +121,7 @@ def is_fill(area: Any, layer: str, lines: Sequence[tuple[Any, str]], tolerance: 
     """Whether an area fills closed lines, given with their layers, rather than is an outline."""
     # It is equal to one of any layer, or has an area in common with one of its own.
     for line, name in lines:
+        # Boxes first: the distance of two outlines takes the product of their points.
         is_near = np.allclose(line.bounds, area.bounds, rtol=0.0, atol=tolerance)
         if is_near and line.hausdorff_distance(area) <= tolerance:
             return True

@@ -51,6 +51,7 @@ def read_map(path: Path, unit_m: float) -> Any:
     Raises `InputError` with every line that is wrong, or if the file is too large or no such CSV.
     """
     data = read_file(path, MAX_BYTES, too_large=f"keep only the columns {', '.join(COLUMNS)}")
+    # Excel saves "Unicode text" in UTF-16, with tabs.
     is_utf_16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
         content = data.decode("utf-16" if is_utf_16 else "utf-8-sig").splitlines()

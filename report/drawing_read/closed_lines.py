@@ -34,6 +34,8 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping
         start, end = (_snapped(point, cells, tolerance) for point in (points[0], points[-1]))
         if start != end:
             ends[k] = (start, end)
+            # From the smaller end to the larger one, so that a line that is drawn twice, once in
+            # reverse, has one key.
             middle = points[1:-1] if start < end else points[-2:0:-1]
             drawn.setdefault((*sorted((start, end)), *middle), k)
         elif len(points) > 2:
@@ -50,6 +52,8 @@ def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping
     for edges_of_chain in edgeminer.find_all_simple_chains(deposit) if deposit else ():
         if len(edges_of_chain) > 1 and edgeminer.is_loop(edges_of_chain, gap_tol=gap):
             loop = [(edge.payload, edge.is_reverse) for edge in edges_of_chain]
+            # From the line that was drawn first: the library may begin anywhere, and the same
+            # drawing must give the same outline.
             first = loop.index(min(loop))
             loops.append([*loop[first:], *loop[:first]])
     # Lines that are drawn twice count once.

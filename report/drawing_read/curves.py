@@ -83,6 +83,7 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
         return [(float(p[0]), float(p[1]), 0.0) for p in points]
     if _is_circle(entity, kind):
         (x, y, _), radius = entity.dxf.center, entity.dxf.radius
+        # A circle is two half circles: the bulge of a half circle is tan(180/4 deg) = 1.
         vertices = [(x - radius, y, 1.0), (x + radius, y, 1.0)]
     elif kind == "ARC":
         dxf = entity.dxf
@@ -92,6 +93,8 @@ def _vertices(entity: Any, kind: str) -> list[tuple[float, float, float]]:
     elif kind == "LWPOLYLINE":
         vertices = [(x, y, bulge) for x, y, _, _, bulge in entity]
     else:
+        # A polyline that was fitted to a spline keeps the vertices of its frame, off the curve
+        # (DXF reference, VERTEX, flag 16).
         corners = [v for v in entity.vertices if not v.dxf.flags & _SPLINE_FRAME]
         vertices = [(v.dxf.location.x, v.dxf.location.y, v.dxf.bulge) for v in corners]
         if entity.is_3d_polyline:

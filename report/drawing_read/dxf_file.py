@@ -98,6 +98,8 @@ def loaded(path: Path) -> tuple[Document, str]:
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     try:
         info = dxf_stream_info(io.TextIOWrapper(io.BytesIO(data), "utf-8", "ignore"))
+        # Letters that the stated code page lacks stay, and are taken out where they are printed:
+        # one wrong letter in a note is no reason to refuse a plan.
         text = io.TextIOWrapper(io.BytesIO(data), info.encoding, "surrogateescape")
         return read(text), ""
     except Exception as refused:  # a damaged drawing makes the library raise almost anything

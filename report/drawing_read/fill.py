@@ -65,6 +65,7 @@ def plan_as_rows(
         check_size(plan, drawn.unit, is_us)
     unknown = [line.layer for line in drawn.lines if line.layer.casefold() not in known]
     plan = matched(plan, inputs)
+    # A plan that is 12 times as large as its workbook is one in inches that was read in feet.
     if plan.move and plan.move.factor != 1.0 and not is_unit_given:
         size_m = LENGTHS[drawn.unit] / plan.move.factor
         units = [unit for unit, m in LENGTHS.items() if math.isclose(m, size_m, rel_tol=1e-3)]

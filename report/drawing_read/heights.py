@@ -76,6 +76,7 @@ class Height(NamedTuple):
 
 def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
     """Return the name and the height in a line, whose height without a unit is in `unit_m` [m]."""
+    # 1,20 m is 1.20 m: before a metric unit a comma is a decimal one.
     text = _METRIC.sub(r"\1.\2", plain_marks(text))
     word = _KEYWORD.search(text)
     if word:
@@ -86,11 +87,14 @@ def read_line(text: str, unit_m: float) -> tuple[str, Height | None]:
         match = None if is_range else _VALUE.fullmatch(before["value"])
         start, keyword = before.start(), "H"
     else:
+        # A height that is missed lets a parapet fail, one that is misread lets it pass: what may
+        # be one is named instead of guessed.
         is_like = _LIKE_ONE.search(text) and _LENGTH.search(text)
         return text, Height(math.nan, "", False) if is_like else None
     name = _OTHER_SIZES.sub("", text[:start]).lstrip(" ,;:-").rstrip(" ,;:-(@")
     name = name if ")" in name else name.lstrip("(")  # `(N) RTU-1` is one
     unclear = Height(math.nan, keyword.upper(), False)
+    # A height above a floor or above grade is not one above the roof.
     if not match or not match[0] or _OF_A_FLOOR.match(text, match.end()):
         return name, unclear
     before_colon = (word and word["unit"]) or ""

@@ -56,6 +56,7 @@ _PARALLEL_DEG, _NO_TURN_RAD = 0.5, 1e-5
 _SIDE_STEPS, _PLACE_STEPS, _DEG_PER_M = 3.0, 2.0, 110.0
 _OFF_STEP = 0.13  # such as whole inches in feet with two decimals
 _MOST_PER_M2 = 16  # drawn twice, and with inner lines
+# Points as complex numbers: to turn a plan is then one product.
 _COMPLEX = np.array((1.0, 1.0j))
 # By the ends of a box: left, bottom, right, top.
 _OUTWARD = np.array((-1.0, -1.0, 1.0, 1.0))
@@ -140,6 +141,8 @@ def _arrays(
                 inside[part][small[n]] = small[n] in row
         for part, within in zip(parts, inside, strict=True):
             its = [row[k] for k in within if within[k]]
+            # The outline of the rounded boxes has a step for each: it is drawn again of boxes in
+            # line, unless that would tear the array apart.
             again = _closed(_snapped(boxes[its], within_m), widest + 2.0 * within_m)
             outline = again[0] if len(again) == 1 else part
             points = np.array(outline.exterior.coords) @ _COMPLEX * turn
@@ -175,6 +178,7 @@ def _parallel(
     a, b = 0.5 * (along[:, 1] - along[:, 3]), 0.5 * (along[:, 2] - along[:, 0])
     step, is_turned = _rounding(corners * cmath.rect(1.0, -math.radians(turned_deg)))
     alike = ALIKE_M + (_SIDE_STEPS if is_turned else 1.0) * step
+    # 0 for a parallelogram, whose diagonals halve each other.
     skew = np.abs(corners @ np.array((1, -1, 1, -1)))
     long, short = np.maximum(abs(a), abs(b)), np.minimum(abs(a), abs(b))
     is_right = (skew <= 2.0 * alike) & (abs((a * b.conj()).real) <= alike * long)
@@ -195,6 +199,7 @@ def _parallel(
     parallel_deg = _PARALLEL_DEG + _DEG_PER_M * step
     angles = np.degrees(np.angle(np.where(abs(a) >= abs(b), a, b))) % 90.0
     runs = _runs(angles, np.flatnonzero(np.isfinite(sizes[:, 0])), parallel_deg)
+    # Angles are taken modulo 90: 0.1 and 89.9 degrees are neighbors.
     if len(runs) > 1 and angles[runs[0][0]] + 90.0 - angles[runs[-1][0]] <= parallel_deg:
         runs[0] = np.concatenate((runs[0], runs.pop()))
     for run in runs:

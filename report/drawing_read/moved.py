@@ -143,7 +143,10 @@ def _fits(was: Shape, moved: Shape) -> Iterator[Move]:
         x = points - points.mean()
         # Least squares, with each vertex of the one as the first of the other.
         size = (abs(x) ** 2).sum()
+        # The correlation of both rings at every offset of their vertices in one transform, n log n
+        # instead of n squared.
         turns = np.fft.ifft(np.fft.fft(y) * np.fft.fft(x).conj()) / size
+        # What is left of the squares once the best turn and factor are taken out.
         off = (abs(y) ** 2).sum() - abs(turns) ** 2 * size
         for turn in turns[off <= len(y) * SAME_M**2].tolist():
             rounded = _rounded(turn, SAME_M / abs(y).max())

@@ -196,6 +196,8 @@ def _shape(line: DrawnOutline, unit_m: float) -> Shape | Unread:
     # Most lines are modules, which need no search for vertices in line and for crossings.
     if (module := _clear_box(scaled)) is not None:
         return module
+    # Vertices on a straight side are no corners: with them a rectangle is drawn and dimensioned as
+    # a polygon.
     straight = shapely.LinearRing(scaled).simplify(ROUNDED_M, preserve_topology=False)
     points = ring([(x, y) for x, y in straight.coords])
     if len(points) < LEAST_VERTICES:

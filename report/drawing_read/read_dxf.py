@@ -98,6 +98,7 @@ def _check_degrees(lines: Iterable[DrawnOutline]) -> None:
         return
     (west, east), (south, north) = ((min(v), max(v)) for v in zip(*points, strict=True))
     far = max(abs(west + east), abs(south + north)) / 2.0
+    # 0.5 degree is some 50 km: in any other unit a roof is larger than 0.5.
     if max(east - west, north - south) < 0.5 and 1.0 < far <= 180.0:
         raise InputError(
             f"the drawing is in degrees: {west:.5f}, {south:.5f} is a longitude and latitude;"
@@ -309,6 +310,7 @@ class _Reader:
         block_of, quoted_name = insert.block(), f"'{printable(insert.dxf.name)}'"
         if block_of is None:
             return f"a missing block: {quoted_name}"
+        # What it refers to is another file, which is not opened: it may be anyone's.
         if block_of.block.is_xref or block_of.block.is_xref_overlay:
             return f"an external reference (bind it in CAD): {quoted_name}"
         if insert.dxf.get("zscale", 1.0) == 0.0:

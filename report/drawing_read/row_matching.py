@@ -79,6 +79,8 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
             for k, name in product(numbers, names):
                 if k in by_row or name in by_row.values():
                     continue
+                # The product of one direction and the conjugate of the other has the cosine
+                # between them as its real part.
                 if k in ways and (ways_before[name] * ways[k].conjugate()).real <= _SAME_WAY:
                     continue
                 value = score(drawn[k], before[name])

@@ -48,6 +48,7 @@ def comparison(
         letters = max(map(len, chain.from_iterable(names)))
         figure, axes = framed(height, 0.2 + 0.06 * letters, 0.1, 0.48, 0.75)
         for row, group in enumerate(groups):
+            # Arrays of a group share their runs, and so all that is drawn here but their names.
             _compare(axes, row, group[0], first)
             lengths = [others_m[array.id] / first.si for array in group if array.id in others_m]
             if lengths:

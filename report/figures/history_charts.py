@@ -94,6 +94,7 @@ class _Grid:
         # Where nothing slips there would be no range.
         self.ticks = _levels(float(reached.min()), float(reached.max()) or 1.0)
         self.low, self.high = self.ticks[0], self.ticks[-1]
+        # One time axis for all panels: a short motion ends before its panel does.
         self.seconds = max(panel.motion.seconds for panel in panels)
         self.above = 0.0  # height of all lines of a title but one, in rows
 
@@ -211,6 +212,7 @@ def envelope(t: Floats, u: Floats, maximum: int = MAX_POINTS) -> tuple[Floats, F
     indices: list[int] = [0]
     for start, stop in pairwise(parts):
         piece = u[start:stop]
+        # Sorted by time: drawn the other way round, minimum and maximum would make a sawtooth.
         indices += sorted({start + int(piece.argmin()), start + int(piece.argmax())})
     indices.append(len(u) - 1)
     index = np.unique(indices)

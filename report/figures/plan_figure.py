@@ -87,6 +87,8 @@ def painted(paper: Paper) -> Figure:
 
 def _artist(item: Item) -> Artist:
     if isinstance(item, Outline):
+        # The gid becomes the id of a group in the SVG, by which `report.page_file` shades an
+        # array.
         return Polygon(item.points, closed=True, gid=item.name or None, **_LOOKS[item.look])
     if isinstance(item, Circle):
         return Round(item.center, item.radius, **_LOOKS[item.look])

@@ -33,10 +33,12 @@ def accelerations(motions: Sequence[Motion]) -> str:
     # All panels share one pair of axes, with offsets: one for each would take ten times as long.
     scaled = [[m.scaled(a) / G_MPS2 for a in (m.ax_mps2, m.ay_mps2, m.az_mps2)] for m in motions]
     peaks = [float(np.abs(a_g).max()) for a_g in chain.from_iterable(scaled) if a_g.size]
+    # Motions of zeros have no range.
     reach = max(peaks) or 1.0
     seconds = max(m.dt_s * (len(m.ax_mps2) - 1) for m in motions)
     height = _ROW_IN * len(motions) + _TOP_IN + _FOOT_IN
     with style():
+        # A row is 1 high, downward from 0; foot and top are in inches.
         rows = (-len(motions) - _FOOT_IN / _ROW_IN, _TOP_IN / _ROW_IN)
         names = [name_lines(motion.id) for motion in motions]
         widest_in = max(map(width_in, chain.from_iterable(names)))

@@ -94,6 +94,7 @@ def _ratios(axes: Axes, part: Spectra) -> None:
     ratios = part.sa_g / part.target_g
     _band(axes, part.periods_s, ratios)
     axes.axhline(1.0, color=INK, linewidth=1.4, linestyle=_DASHES)
+    # NaN where the target is not given.
     low, high = np.nanmin(ratios), np.nanmax(ratios)
     if high > _FACTOR:
         axes.set_ylim(0.85 * min(low, 1.0), 1.2 * high)

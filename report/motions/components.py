@@ -113,6 +113,7 @@ def read_components(
                     components[field] = component
             except InputError as error:
                 faults += _faults(index, field, error, row)
+    # Without the horizontal record there is nothing to compare the others with.
     if "record" not in components:
         return faults
     to_s = row.get("to_s")
@@ -142,6 +143,7 @@ def _faults(index: int, field: str, error: InputError, row: Mapping[str, Any]) -
     for problem in error.parts:
         place = Place("motions", index, problem.about or field)
         is_given = row.get(problem.about) not in (None, AccelUnit.FROM_FILE)
+        # What was typed contradicts the file: the file is right more often than the cell.
         remedy = _LEFT_TO_THE_FILE[problem.about] if is_given else problem.remedy
         findings.append(Finding.error(place, f"{LABELS[field]} record: {problem.found}", remedy))
     return findings
@@ -234,6 +236,7 @@ def _processed(
     except InputError as error:
         return _faults(index, "record", error, row.model_dump())
     processed = dict(zip(components, done, strict=True))
+    # Again, as run: a window of time or a filter may leave nothing of a record.
     faults = list(_unscalable(index, {"scaling": row.scaling}, processed)) or list(
         _no_motion(index, processed)
     )

@@ -160,6 +160,8 @@ def shake(
 def _shake(
     data: ProjectInput, row: MotionInput, components: Components
 ) -> tuple[Motion, PreparedMotion]:
+    # One factor for all components, and for the motion without its high-pass: it is the same
+    # earthquake.
     scale = _scale(data, row, components.records)
     motion, roof = _motion(data, row, components.records, scale)
     scaled = {
@@ -188,6 +190,8 @@ def _motion(
     a = {field: record.a_mps2 for field, record in records.items()}
     dt_s, roof = records["record"].dt_s, {}
     if row.recorded_at is RecordedAt.GROUND:
+        # The vertical reaches the roof as it is: the model of the building is one of lateral
+        # modes.
         fields = [field for field in a if field != "vertical"]
         shaking = shaking_to_roof(
             [a[field] for field in fields],
@@ -196,6 +200,7 @@ def _motion(
             [_building(data, field) for field in fields],
             share=data.building.left_out_percent / 100.0,
         )
+        # The response may have a smaller step than the record, by the periods of its modes.
         dt_s, roof = shaking.dt_s, dict(zip(fields, shaking.horizontal, strict=True))
         a = {field: response.a_mps2 for field, response in roof.items()} | {
             "vertical": shaking.vertical_mps2

@@ -67,9 +67,11 @@ def read_column(
     _check_units(book, heading, units)
     below = cells_below(book, heading)
     last = max((i for i, cell in enumerate(below) if not cell.is_blank), default=-1)
+    # Blank cells below the record: another column of the sheet may be longer.
     below = below[: last + 1]
     values = _numbers(below, units)
     parsed = _parsed_heading(book, heading)
+    # A magnitude has no sign: as a component it would push one way only.
     if parsed.is_magnitude and min(values, default=-1.0) >= 0.0:
         raise InputError(
             f"{heading.address} is '{parsed.text}', the magnitude of a vector; use a component"
@@ -132,6 +134,7 @@ def _check_times(book: OpenBook, heading: CellPosition, count: int, dt_s: float)
     )
     # Samples, of which there is no need.
     none = np.zeros((1, count))
+    # First by the step that the sheet states: if the times fit it, nothing is to be said.
     with suppress(InputError):
         sampled(replace(source, dt_s=dt_s), t_s, none, int, unit_s)
         return [found_at(book, time_heading), *cells]

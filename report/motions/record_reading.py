@@ -68,6 +68,7 @@ def read_component(
     sha256 = hashlib.sha256(content).hexdigest()
     # The same file under two motions counts once.
     kept_bytes = sum(len(data) for key, data in book.records.items() if key != sha256)
+    # Beyond it the package has the hash alone; the record is run all the same.
     if kept_bytes + len(content) <= MOST_RECORDS:
         book.records[sha256] = content
     return Component(
@@ -128,6 +129,7 @@ def _read_column(
     if problems := [f"'{name}' is a pasted column; enter its {w}" for w, is_so in missing if is_so]:
         raise InputError(problems)
     record, cells = read_column(book, name, heading, units, float(dt_s or 0.0))
+    # Little-endian whatever the machine: a package has the same hash on each.
     data = np.ascontiguousarray(record.a_mps2, dtype="<f8").tobytes()
     return Component(
         record=record,

@@ -86,6 +86,8 @@ def _horizontal_records(
             peak_index = int(np.abs(a).argmax())
             if a[peak_index] != 0.0:
                 place = Place("motions", index, field)
+                # Divided by its peak with its sign: a record and its reverse, in whatever unit,
+                # have one shape.
                 yield (len(a), peak_index), _Horizontal(place, row, a / a[peak_index])
 
 

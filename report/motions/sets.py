@@ -28,6 +28,7 @@ LENGTHS_WITHIN = 0.05
 STARTS_WITHIN = dt.timedelta(seconds=1)
 
 _UP, _DOWN, _AZIMUTH = "up", "down", "azimuth"
+# Hidden files, locks of Office, and what macOS adds to a zip.
 _HIDDEN = re.compile(r"/(\.|~\$|__MACOSX/)")
 _SPELLED = {
     (_UP, 0): ("up", "u", "ud", "u-d", "v", "ver", "vrt", "vert", "vertical", "z"),
@@ -122,6 +123,7 @@ def sets_of(
     records alone are a set where that is asked. Raises `InputError` if it has more than
     `MOST_FILES` files.
     """
+    # Sorted: what is taken does not depend on the order of the file system.
     paths = sorted(
         path
         for path in folder.rglob("*")
@@ -229,6 +231,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
     if min(lengths) < (1.0 - LENGTHS_WITHIN) * max(lengths):
         yield f"lengths differ: {min(lengths)} to {max(lengths)} samples"
     starts = [channel.start for channel in group if channel.start is not None]
+    # Two events at one station have the same names: their start times tell them apart.
     if starts and max(starts) - min(starts) > STARTS_WITHIN:
         yield f"start times differ: {min(starts)} to {max(starts)}"
 
@@ -244,6 +247,7 @@ def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
         if is_alone:
             stem, of_name = _by_name(stem)
         of_heading = _by_heading(channel_name)
+        # The heading goes first: it was written with the record, and a file may have been renamed.
         component = of_heading or of_name
         if component is None:
             raise InputError(
@@ -327,6 +331,7 @@ def _by_word(word: str) -> _Meant | None:
         return (*_NAMED[word], "")
     if match := _BEARING.fullmatch(word):
         degrees = int(match[2]) * (1 if match[3] == "e" else -1)
+        # N 30 E is 30 degrees from north over east, S 30 E is 150, N 30 W is 330.
         return _AZIMUTH, (degrees if match[1] == "n" else 180 - degrees) % 360, ""
     if match := _WITHIN.fullmatch(word):
         return (*_NAMED[match[2] or match[3]], match[1] or match[4])

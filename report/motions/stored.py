@@ -74,6 +74,7 @@ class _Room:
 
     def take(self, name: str, content: IO[bytes]) -> None:
         """Write one file."""
+        # No name leads out of the folder, as `../` or a drive of Windows would.
         target = within(self._folder, name)
         path = PurePosixPath(target.relative_to(self._folder).as_posix())
         # Hidden files, the lock of an open workbook, and what it was before a command changed it.
@@ -117,9 +118,11 @@ def _unpack(content: IO[bytes], room: _Room, below: str = "") -> None:
     # Some programs of Windows write backslashes.
     named = [(info.filename.replace("\\", "/"), info) for info in archive.infolist()]
     members = [(path, info) for path, info in named if not path.endswith("/")]
+    # All are checked before the first is written.
     for path, info in members:
         # The upper half is the mode of Unix; 0 where a zip was made elsewhere.
         kind, name = stat.S_IFMT(info.external_attr >> 16), printable(path)
+        # A link in a zip may point to any file of this computer, which a package would attach.
         if kind not in (0, stat.S_IFREG):
             raise InputError(f"{name}: a link instead of a file; put the file itself into the zip")
         if info.flag_bits & _ENCRYPTED:

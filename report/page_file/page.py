@@ -72,6 +72,7 @@ def _page(package: str, assessment: Assessment, fingerprint: str, given: str) ->
     # Whatever is in the file: nothing is loaded, and no other style or script is obeyed.
     policy = f"default-src 'none'; style-src {_hash(css)}; font-src data:; base-uri 'none'"
     if given:
+        # Compiling WebAssembly needs this word of the policy; `eval` of a script stays forbidden.
         policy += f"; script-src {_hash(script)} 'wasm-unsafe-eval'"
     shades = {item.id: _shade(assessment, item.id) for item in assessment.arrays}
     context = {
@@ -103,6 +104,7 @@ def _script(name: str) -> str:
                 add(other)
         names = ", ".join(_EXPORTED.findall(text))
         body = _IMPORT.sub(lambda found: _taken(*found.groups()), text)
+        # One classic script: a page opened as a file may not import modules from files.
         body = re.sub(r"^export ", "", body, flags=re.MULTILINE)
         modules[name] = f'modules["{name}"] = (() => {{\n{body}return {{ {names} }};\n}})();\n'
 

@@ -60,10 +60,13 @@ def opened(data: bytes) -> OpenedPackage:
     Raises `InputError` if it is damaged, unpacks to too much, or is no package with its input
     inside.
     """
+    # At its first byte: readers accept a PDF behind other content, which may be a program.
     if not data.startswith(b"%PDF-"):
         raise InputError("is not a PDF; obtain the file again from its issuer")
     # It prints what it mends.
     logging.getLogger("pypdf").addHandler(logging.NullHandler())
+    # Strict: a reader that mends a file may see another document than the one that a plan checker
+    # sees.
     pdf = guarded(lambda: PdfReader(io.BytesIO(data), strict=True))
     files = guarded(lambda: _attachments(pdf))
     if MANIFEST not in files:

@@ -47,6 +47,7 @@ def pages(pdf: PdfReader) -> Sequence[PageObject]:
             raise InputError("has a sheet twice, or more sheets than a package can have")
         seen.add(id(node))
         count += "/Kids" not in node
+        # Of a list alone: a text or a dictionary in its place raises, and the file is damaged.
         pending += list.__iter__(node.get("/Kids", []))
     # Readers differ in which of the two they believe.
     if len(pdf.pages) != count:
@@ -146,6 +147,8 @@ def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
         check()
         # A smaller sheet cuts off what its words still say.
         yield f"size of sheet {count}", f"{page.mediabox.width:g} x {page.mediabox.height:g}"
+        # The clock is asked at each operand: one stream may keep the reader of texts busy for
+        # hours.
         yield f"sheet {count}", page.extract_text(visitor_operand_before=check)
     for place, item in _dictionaries(pdf):
         check()

@@ -194,6 +194,7 @@ def signed(data: bytes, p12: bytes, password: str, time_url: str = "") -> bytes:
     clock = timestamps.HTTPTimeStamper(time_url) if time_url else None
     out = io.BytesIO()
     try:
+        # Appended: the package before it stays as it was, and can be compared to the byte.
         signers.PdfSigner(about, signer, timestamper=clock, stamp_style=_look()).sign_pdf(
             IncrementalPdfFileWriter(io.BytesIO(data)), existing_fields_only=True, output=out
         )

@@ -49,6 +49,7 @@ def _is_up_to(made_by: str, last: str) -> bool:
         # Without its commit, which has no order.
         return Version(Version(made_by).public) <= Version(last)
     except InvalidVersion:
+        # A version that cannot be read may be any: the error is named rather than left out.
         return True
 
 

@@ -40,6 +40,7 @@ def of_folder(folder: Path) -> str:
     try:
         from dunamai import Version
 
+        # Untracked files are not of the program: a project beside it makes no version dirty.
         checkout = Version.from_git(_NO_TAG, path=folder, ignore_untracked=True, commit_length=8)
     # dunamai or git is not installed, or git refuses a folder that belongs to another user.
     except (ImportError, OSError, RuntimeError):

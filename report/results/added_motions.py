@@ -49,6 +49,8 @@ def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Valu
     ids: list[Found] = []
     for row in rows:
         numbers = change.rows("motions", "id", str(row["id"]))
+        # An ID that is taken by another motion: two with one name would be two rows of one ID,
+        # which `check` refuses.
         if any(not _is_former(change, number, row) for number in numbers):
             ids += [change.cell("motions", number, "id") for number in numbers]
         elif numbers:
@@ -64,6 +66,7 @@ def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Valu
 def _is_former(change: WorkbookChange, number: int, row: Row) -> bool:
     """Whether a row of a table is that of the same motion of a suite that was made before."""
     sources = change.cell("motions", number, "source").shown, str(row["source"])
+    # Only of a generated motion: a row that an engineer gave a source is not written to.
     records = all(change.cell("motions", number, name).shown == row[name] for name in LABELS)
     return records and all(source.startswith(GENERATED) for source in sources)
 
@@ -110,6 +113,7 @@ def add_suite(
     with changing(workbook) as change:
         prefix = name_beside(change.book, folder)
         change.fill(row_cells(change.book, rows))
+        # The stamp tells later that the files are of one suite, and complete.
         stamped = {**files, STAMP: stamp(files)}
         change.files |= {f"{prefix}/{name}": data for name, data in stamped.items()}
     return change
@@ -144,6 +148,7 @@ def set_rows(
         raise InputError(taken)
     rows: list[Row] = []
     for name, group in sets.items():
+        # With ` | channel` behind the file, where it has several.
         cells = [names[channel.file] + channel.name.removeprefix(channel.file) for channel in group]
         # Two where there is no vertical record, which is the last of the labels.
         records = dict(zip(LABELS, cells, strict=False))
@@ -197,6 +202,8 @@ def _source(record: Path) -> str:
 def _differs(source: str, stated: str) -> bool:
     """Whether a source is a former one, or states another number."""
     typed, made = dict(_STATED.findall(source)), dict(_STATED.findall(stated))
+    # Rounded numbers in a source that was typed are the same: 0.5% is less than any two suites
+    # differ by.
     return (source.startswith(GENERATED) and source != stated) or any(
         not math.isclose(float(typed[name]), float(made[name]), rel_tol=0.005)
         for name in typed.keys() & made

@@ -20,6 +20,8 @@ from report.results.sheet_pages import TOP, Pages
 from report.text.units import round_up
 from solver.rules.provisions import SEPARATION_KEYS
 
+# A missing value is the text "none", and every formula asks for it first: in Excel text times a
+# number is an error, and MAX passes over text.
 _REQUIRED = '=IF(ISTEXT({design_m}),"none",MAX({design_m}*{factor},{minimum_m}))'
 # Rounded up as `ratio` does, so that 1.00 never hides a failure.
 _UP = "MAX(0,ROUNDUP({required_m}/{provided_m}-0.000000001,2))"
@@ -106,6 +108,7 @@ def _row(assessment: Assessment, gap: ClearanceCheck, inputs: InputCells, count:
     largest, governing = _sides(assessment, gap)
     # Which route is permitted is no formula.
     formulas = {"governing": f"={governing}" if gap.is_permitted else ""}
+    # I_e is an input of the project, I_p is one of an array: only the former has a cell to follow.
     if not (rules.importance_in_separation and gap.neighbor.is_edge):
         formulas["importance"] = ""
     factor = rules.values[SEPARATION_KEYS[gap.neighbor]]

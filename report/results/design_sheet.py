@@ -188,6 +188,7 @@ _STRENGTH = (
     "=MAX({inputs[interconnection_sds]}*{s_ds_g},{inputs[interconnection_min]})*{weight_n}/2"
 )  # fmt: skip
 _RATIO = '=IF(ISTEXT({design_m}),"none",{design_m}/{prescriptive_m})'
+# By the number beside it, which no formula changes: 0 until a yellow cell is changed.
 _DIFFERENCE = '=IF(ISTEXT({design_m}),"none",{design_m}-{by_roofslip_m})'
 
 
@@ -332,8 +333,11 @@ def _row(
     if not assessment.has_motions:
         formulas |= dict.fromkeys(("n_motions", "mean_prd_m", "largest_prd_m"), "")
         formulas |= {"computed_m": '="none"', "design_m": "={prescriptive_m}"}
+    # AVERAGE and MAX pass over the text of a run without a value: the others would seem to be all.
     elif math.isnan(item.analysis.mean_m):
         formulas |= dict.fromkeys(("computed_m", "design_m"), '="none"')
+    # As `report.assessment.design.arrays`: runs that slide farther than the prescriptive value
+    # count.
     elif item.route is Route.PRESCRIPTIVE:
         formulas["design_m"] = "=MAX({prescriptive_m},{largest_prd_m})"
     design = ("design_m", "over_prescriptive", "by_roofslip_m")

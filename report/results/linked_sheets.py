@@ -31,6 +31,7 @@ _RIGID = f"={{factor}}*IF({_TAKES_LARGEST},{{rigid_largest_m}},{{rigid_mean_m}})
 _ROW = f"={{factor}}*IF({_TAKES_LARGEST},{{row_largest_m}},{{row_mean_m}})"
 # Links never lower a design displacement: a ratio below 1 counts as 1.
 _DESIGN = "=MAX(MAX(1,{ratio})*{computed_m},{floor_m})"
+# As `Settings.bound_m` of the model selection.
 _TOLERANCE = f"=MAX({DEFAULT.matters_m}/{INCH_M},{DEFAULT.matters_share}*{{design_m}})"
 _DIFFERENCE = "={estimated_m}-{by_roofslip_m}"
 _RESULT = '=IF({estimated_m}<={design_m}+{tolerance_m},"OK","NG")'
@@ -192,6 +193,7 @@ def write_links(pages: Pages, assessment: Assessment, designs: Mapping[str, Cell
     )
     sheet.write_row(top - 2, 0, [column.head for column in _LINK_PEAKS.own], pages.head)
     sheet.set_row(top - 2, 3 * LINE_PT)
+    # Again: the sheet was laid out for the arrays alone, before the peaks stood below them.
     sheet.print_area(0, 0, top + len(peaks) - 2, (_LINKS.n_printed or 0) - 1)
     write_rows(pages, sheet, _LINK_PEAKS, top, peaks)
 

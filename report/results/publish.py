@@ -53,6 +53,8 @@ def publish(files: Mapping[str, bytes], folder: Path, names: Sequence[str] = ())
             hashes_before = _listed(folder)
             write_all({**files, STAMP: stamp(files)}, folder)
             for name in names:
+                # A page of the former package beside a new PDF would be read as part of it; one
+                # that a person changed is theirs, and stays.
                 if name not in files and _sha256(content(folder / name)) == hashes_before.get(name):
                     (folder / name).unlink()
     except OSError as error:
@@ -94,6 +96,7 @@ def _listed(folder: Path) -> Mapping[str, str]:
 def content(path: Path) -> bytes:
     """Return the content of a file; nothing of what is no file or too large."""
     with suppress(OSError, InputError):
+        # A link is no file of a set: `publish` writes none, and reading it would leave the folder.
         if not path.is_symlink():
             return read_file(path, _MOST_BYTES)
     return b""

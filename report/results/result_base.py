@@ -9,6 +9,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, PlainSerializer, Wi
 
 from solver.spaces import spaced
 
+# JSON has no NaN: `json.dumps` would write one that no other program reads.
 Number = Annotated[
     float,
     BeforeValidator(lambda value: math.nan if value is None else value),

@@ -83,6 +83,7 @@ def former_from(content: bytes, path: Path) -> Compared:
         earlier = Compared.model_validate_json(content, strict=True)
     except ValidationError as error:
         raise InputError(f"{path}: {_first(error)}; the file is damaged: {AGAIN}") from error
+    # Every text of it may be printed in the list of changes.
     for text in _texts(earlier.model_dump(mode="json")):
         if letter := UNPRINTABLE.search(text):
             raise InputError(

@@ -74,6 +74,8 @@ def changes(earlier: Compared, assessment: Assessment) -> Changes:
     return Changes(
         revision=earlier.input.project.revision,
         date=earlier.input.project.date.isoformat(),
+        # Causes before effects, in the order of the kinds: rule set and input stand above what
+        # follows from them.
         items=tuple(sorted(items, key=lambda item: list(ChangeKind).index(item.kind))),
         arrays=frozenset(
             row.id
@@ -115,6 +117,8 @@ def with_reissue(assessment: Assessment, earlier: Compared) -> Assessment:
     issue, then = assessment.project.project, earlier.input.project
     # One revision with two contents: nobody can tell later which of them was sealed.
     is_same = issue.revision.casefold() == then.revision.casefold()
+    # By what the results follow from, not by the results: another version of the program may round
+    # otherwise.
     if not (is_same and any(_given(earlier, compared(assessment), assessment))):
         return assessment
     row = condition(
@@ -310,6 +314,7 @@ _RESULTS: Mapping[type[ResultModel], Sequence[_Result]] = {
     # Of a new clearance the verdict is listed, which says as much.
     ClearanceResult: (
         _Result("required_m", ChangeKind.CLEARANCE, _gap, ", required", of_new=False),
+        # Its input is listed as an input already.
         _Result("provided_m"),
         _Result("demand_capacity", ChangeKind.CLEARANCE, _gap, ", D/C", of_new=False),
         _Result("verdict", ChangeKind.VERDICT, _clearance),

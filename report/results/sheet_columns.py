@@ -66,6 +66,8 @@ class SheetColumn:
 
     def rounded(self) -> SheetColumn:
         """Return it as a column that is rounded from the exact one of its name."""
+        # A value that is rounding error above a printed one is that one: 24.00000001 prints 24.0,
+        # as in the PDF.
         noise = NOISE / 10.0 ** (self.decimals or 0)
         times = "*25.4" if self.unit == "mm" else ""
         formula = _ROUNDED_UP.format(
@@ -214,6 +216,8 @@ def _write(
     look = pages.number(column.decimals, row.marks.get(column.name, ""), is_input=is_input)
     if isinstance(value, str) and column.decimals is None:
         look = pages.typed_text if is_input else pages.text
+    # Without a value there is nothing for the formula to be compared with, unless a yellow cell
+    # may give it one.
     if formula and (column.is_always or value != NO_VALUE):
         # With its value: a program that computes nothing shows it, too.
         sheet.write_formula(*place, formula, look, value)

@@ -43,6 +43,8 @@ _PAGE_PX, _LEAST_SCALE = 970, 60
 
 def text_workbook(buffer: BytesIO, date: dt.date, title: str = "") -> Workbook:
     """Return a workbook to write, in which untrusted text is never a formula or link."""
+    # xlsxwriter would make a formula of a name that begins with =, and a link of one that begins
+    # with http://.
     as_text = ("strings_to_formulas", "strings_to_urls", "strings_to_numbers")
     # The library refuses NaN and infinity otherwise.
     workbook = Workbook(buffer, dict.fromkeys(as_text, False) | {"nan_inf_to_errors": True})
@@ -90,6 +92,8 @@ class Pages:
         key = (decimals, bool(mark), is_input)
         if key not in self._numbers:
             code = "General" if decimals is None else f"{0:.{decimals}f}"
+            # In the format, not in the cell: with a mark behind it the number would be a text, and
+            # no formula could use it.
             code += f'"{OVERRIDDEN}"' if mark else ""
             look = {"num_format": code, "valign": "top"} | (_INPUT if is_input else {})
             self._numbers[key] = self.workbook.add_format(look)
@@ -155,6 +159,7 @@ def lay_out(
         sheet.repeat_columns(0, keys - 1)
         sheet.print_across()
     else:
+        # One page wide, and as many as it takes.
         sheet.fit_to_pages(1, 0)
     return widths
 

@@ -93,6 +93,8 @@ def _write_row(
 def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
     """Return the rows of the project, the last two with the verdict and what it follows from."""
     project, site = assessment.project.project, assessment.project.site
+    # What is of no array has no formula on the Design worksheet: the project's verdict takes it
+    # from here.
     of_project = worst(check.verdict for check in assessment.checks if not check.arrays)
     rows: list[Sequence[_Value]] = [
         ("Project", project.name),

@@ -54,7 +54,6 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
                 workbook.add_worksheet(name)
         write_lists(pages, assessment, spectra)
         _write_live(pages, assessment)
-        workbook.set_calc_mode("auto")
     return buffer.getvalue()
 
 

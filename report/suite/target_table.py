@@ -199,6 +199,8 @@ def _columns(
     above: Sequence[Found], row: Sequence[Found], headings: Sequence[tuple[str, str]]
 ) -> Mapping[str, int]:
     problems, columns = [], {}
+    # A spectrum at 2% damping is larger than one at 5%: as a target it would be a stronger motion
+    # than the code asks for, and one at 10% a weaker one.
     for cell in above:
         if is_of_another(cell.shown):
             remedy = "use accelerations in g, or delete the line if it is not part of the table"

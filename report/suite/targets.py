@@ -61,6 +61,7 @@ def ac156_targets(
     if problems:
         raise InputError(problems)
     named = {name: key for key, name in CODES.items()}
+    # By its name as well, as a workbook has it.
     code = named.get(choice_in(code, named), code.casefold())
     if code not in CODES:
         raise InputError(f"--code is {code!r}; enter one of {', '.join(CODES)}")

@@ -136,6 +136,7 @@ def amount_texts(
             replace(each, value=100.0 * math.tan(math.radians(each.value)))
             for each in (found, limit)
         )
+        # Ordered by themselves: degrees that differ may round to one percentage.
         percents = in_order(slope, most, 1, is_at_least=is_at_least)
         texts = [f"{a}° ({b}%)" for a, b in zip(degrees, percents, strict=True)]
     elif quantity.has_systems and is_both:

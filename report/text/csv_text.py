@@ -24,6 +24,7 @@ def csv_text(rows: Iterable[Sequence[Any]]) -> str:
 
 def _as_text(value: Any) -> Any:
     """Return a field, with an apostrophe before a text that would begin a formula."""
+    # -0.5 begins as a formula does, and is a number.
     if not isinstance(value, str) or _NUMBER.fullmatch(value):
         return value
     is_live = value.startswith(("\t", "\r", "\n")) or value.lstrip().startswith(_FORMULAS)

@@ -14,6 +14,7 @@ UNPRINTABLE = re.compile(
 # Characters of a cell or a name that a message shows.
 SHOWN = 60
 
+# U+3000, the wide space of East Asian text, is the last that `str.isspace` knows.
 _UNSEEN = "".join(filter(str.isspace, map(chr, range(0x3001)))) + (
     "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
 )

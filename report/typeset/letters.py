@@ -73,6 +73,7 @@ def check_letters(sheet: Sheet) -> None:
     if missing := undrawable(sheet.path.name):
         fault = f"the file name: no font of this machine has {named(missing)}"
         problems.append(Problem(fault, "rename the workbook"))
+    # By the echo: it has every text that is printed, with its cell.
     for row in sheet.echo:
         is_in_figures = row.label == _ID
         if missing := undrawable(row.typed, is_in_figures=is_in_figures):

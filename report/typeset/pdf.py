@@ -67,6 +67,7 @@ def places_of(html: str) -> Mapping[str, float]:
     )
     with warnings.catch_warnings(), _no_fonts_left():
         warnings.simplefilter("ignore", ResourceWarning)
+        # On one sheet: how high each part is, is known before anything is broken over pages.
         (page,) = _parsed(ElementTree.fromstring(html)).render(stylesheets=[endless]).pages
     return {name: box[1] for name, box in page.anchors.items()}
 
@@ -117,6 +118,7 @@ def _fetcher() -> Any:
                 raise ValueError(f"outside the templates: {url}")
             return URLFetcherResponse(url, path.read_bytes())
 
+    # No file and no network: a text of the workbook that got into an address would fetch nothing.
     return Shipped(allowed_protocols=("data",))
 
 
