@@ -32,6 +32,8 @@ def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
     if rule.has_value and beyond.size:
         floor_alone.append(study_input.intensities[beyond[0]])
     answers = []
+    # Both: a design displacement is for a clearance, the mean is what other analyses are compared
+    # with. With too few motions they are one.
     for name in dict.fromkeys((results.leading, MEAN)):
         mus = results.minimum_frictions(building, name, allowed_m)
         slopes_deg = results.largest_slopes(building, name, allowed_m)

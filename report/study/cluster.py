@@ -43,6 +43,8 @@ def connected(address: str, manifest: Mapping[str, Any]) -> Iterator[Any]:
 
 
 def _check_workers(client: Any, address: str, versions_here: Mapping[str, str]) -> None:
+    # Another version of the solver, or of numpy or numba, may round otherwise: rows of one study
+    # would not be of one program.
     versions_of_workers = client.run(program, on_error="return")
     if not versions_of_workers:
         raise InputError(
@@ -74,6 +76,7 @@ def run_on_cluster(
     # The records are the result of a task, as the parts are: with a worker that dies both are lost,
     # and both are computed again by another one.
     with warnings.catch_warnings():
+        # The campaign has the records in it: it is large, and is sent once.
         warnings.filterwarnings("ignore", "Sending large graph", UserWarning)
         runner = client.submit(Runner, campaign, pure=False)
         parts = [

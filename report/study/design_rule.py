@@ -61,6 +61,7 @@ class DesignRule:
     def design_m(self, curves: Statistics) -> Floats:
         """Return the same, not less than the floor where that is known."""
         value = self.analysis_m(curves)
+        # `maximum` keeps NaN: the floor is no value where the runs give none.
         return np.maximum(value, self.floor_m) if self.has_floor else value
 
     @property

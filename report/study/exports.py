@@ -74,6 +74,7 @@ def component_id(results: StudyResults, result: ArrayStudyResult) -> str:
 def _component(results: StudyResults, result: ArrayStudyResult) -> Row:
     demand, unit, _ = DEMANDS[results.plan.input.study.intensity]
     comments = _comments(results, result)
+    # Complete (Incomplete 0), no offset of the floor, and of no direction.
     row = [component_id(results, result), 0, demand, unit, 0, 0, comments]
     # Those that are known, without a gap: pelicun fails where the first state is blank, and counts
     # its damage states without the others that are.

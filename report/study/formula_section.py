@@ -107,4 +107,5 @@ def _by_formula(results: StudyResults, fit: Fit, index: _At) -> tuple[str, str]:
     computed, fitted = float(results.analysis_m[index]), fit.prd_m(*case)
     floor = float(rule.floor_m[x]) if rule.has_floor else 0.0
     ratio = number(computed / fitted, 2) if computed > 0.0 else "—"
+    # The ratio is that of the values before the floor, which is what was fitted.
     return design_length(results, max(fitted, floor)), ratio

@@ -1,5 +1,9 @@
 """The hazard curve of the site of a study: typed, of two columns, or of the USGS hazard tool.
 
+    PGA [g], annual rate
+    0.1,     2.0E-2
+    0.5,     1.1E-3
+
 `solver.studies.rates` computes the rates. Read `hazard_curves`.
 """
 
@@ -103,6 +107,8 @@ def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, f
     if curves:
         names = [", ".join(name) for name, _, _ in curves]
         fits = [k for k, name in enumerate(names) if _NAMES[is_spectral].search(name)]
+        # A file of the tool has a curve for each measure and, where it was asked for, for each
+        # source: which one is meant is not guessed.
         if len(fits) != 1:
             measure = _MEASURE[is_spectral]
             raise InputError(f"has {len(fits)} curves of {measure} ({'; '.join(names)}); keep one")
@@ -129,6 +135,8 @@ def _wrong_headings(row: Sequence[str], is_spectral: bool) -> Iterator[str]:
     if len(row) != 2 or row[0].startswith("#"):
         text = ", ".join(row)
         named = [name for name, pattern in _NAMES.items() if pattern.search(text)]
+        # A curve of probabilities in 50 years that is taken for one of annual rates is 50 times
+        # too high.
         if is_of_another(text) or _OF_OTHERS.search(text) or named == [not is_spectral]:
             yield f"has the heading '{text[:60]}'; enter {measure} and {_RATE}, or delete it"
         return

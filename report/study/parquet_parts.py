@@ -100,7 +100,10 @@ def made_part(runner: Runner, number: int, identity: str, names: Sequence[str]) 
         sink,
         table.schema,
         compression="lz4",
+        # Keys repeat in thousands of rows; lengths do not, and a dictionary of them would be as
+        # long as they are.
         use_dictionary=[name for name in table.column_names if name not in LENGTHS],
+        # By these readers skip parts that have none of the values that they select.
         write_statistics=["slope_deg", "mu", "intensity"],
     ) as writer:
         writer.write_table(table)
@@ -108,6 +111,7 @@ def made_part(runner: Runner, number: int, identity: str, names: Sequence[str]) 
             identity=identity,
             number=number,
             models={model.title: int(counts[model]) for model in Model if counts[model]},
+            # Of this thread: the others run parts of their own at the same time.
             seconds=time.thread_time() - started,
             machine=machine(),
             computed=datetime.now(UTC),
@@ -170,6 +174,7 @@ def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
     prd = rows["prd_m"].where(rows["status"] == STATUSES[0].value).to_numpy()
     slips = (rows["model"] != Model.NO_SLIP.title).to_numpy()
     numbers = np.array([number for number, _ in campaign.columns])
+    # Columns are in the order of the motions: each begins where the number changes.
     starts = np.flatnonzero(np.diff(numbers, prepend=-1))
     shape = (-1, len(numbers))
     return (
@@ -206,6 +211,7 @@ def _opened(content: bytes, key: bytes) -> Done:
         about=_AS_JSON.validate_json(metadata.metadata[_ABOUT]),
         rows=metadata.num_rows,
         sha256=hashlib.sha256(content).hexdigest(),
+        # In a time that says nothing of how many letters agree, as for every such comparison.
         is_own=hmac.compare_digest(content[tag], expected[tag]),
     )
 

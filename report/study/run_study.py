@@ -83,6 +83,7 @@ def run_study(
     Raises `InputError` if a package is missing, the folder has the parts of another version, the
     user's key cannot be kept, or the cluster cannot be used.
     """
+    # First: without it nothing can be kept of hours of runs.
     optional_package(ARROW)
     out = Path(out)
     folder, campaign = out / RUNS, plan.campaign

@@ -72,6 +72,8 @@ def curves(
             axes.set_xlim(min(0.0, x[0]), x[-1])
             axes.set_ylim(0.0, None)
         if low > x[0]:
+            # At least 1/1000 of a unit: where nothing slips a logarithmic axis would have no
+            # range.
             top = float(np.nanmax([v[x <= low] for _, v in named], initial=1e-3))
             row[0].set_yscale("log", nonpositive="mask")
             row[0].set_ylim(1e-3 * top, 1.3 * top)
@@ -103,6 +105,7 @@ def contours(
         (second,) = {Quantity.DISPLACEMENT.us, Quantity.DISPLACEMENT.si} - {unit}
         both: Any = {"suffix": lambda v: f" ({measured(v, second)} {second.symbol})"}
         allowed = allowed_m / unit.si
+        # The allowed displacement has a thick line: not a thin one on top of it.
         thinner = [value for value in levels if value != round(allowed, 6)]
         axes.set_xlim(x[0], x[-1])
         axes.set_ylim(slopes_deg[0], slopes_deg[-1])

@@ -1,5 +1,8 @@
 """The motions of a study at the roof.
 
+A record with a peak of 0.40 g at the roof has the factor 1/0.40 = 2.5: at a PPA of 0.60 g it is run
+at 1.5 times its size.
+
 Owns which files a folder gives, and the factor that makes the intensity of a motion one;
 `report.motions` reads the records. Read `study_motions`.
 """
@@ -158,6 +161,7 @@ def _motion(
             [a[field] for field in horizontal],
             a.get("vertical", np.empty(0)),
             dt_s,
+            # One period for both directions: a study has a family of buildings, not a building.
             [_building(building)] * len(horizontal),
             share=_TRUNCATION,
         )

@@ -1,5 +1,8 @@
 """What an array sees in its life: rates in years, and the displacement of 25 years.
 
+A PRD that is exceeded once in 475 years in the mean is exceeded in 25 years with a probability of
+1 - exp(-25/475) = 5.1%.
+
 Supporting analysis, from which no value of a code follows. Read `years_of`.
 """
 
@@ -81,6 +84,7 @@ class ArrayYears:
     @property
     def clearance_rates(self) -> Floats:
         """Annual rate at which the clearance is exceeded, and its quantiles, shape (3,)."""
+        # Exactly: `_by_run` has put the clearance among the limits.
         index = int(np.searchsorted(self.limits_m, self.plan.array.clearance_m))
         return np.array([self.rates[index], *self.rates_band[:, index]])
 
@@ -132,6 +136,8 @@ def years_of(plan: StudyPlan, curve: HazardCurve, array: ArrayPlan, runner: Runn
         partial(_measured, curve, array, draws),
     )
     limits_m, by_run = _by_run(curve, array, responses)
+    # Friction coefficients are quantiles of equal probability and runs are equally likely: a plain
+    # mean of the rates.
     rates, years = by_run.mean(axis=(1, 2)), np.array(RECURRENCES)
     # The orientations of a motion are no motions of their own: the band draws motions alone.
     by_motion = by_run.reshape(*by_run.shape[:2], motions, -1).mean(axis=-1)
