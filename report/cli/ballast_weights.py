@@ -28,6 +28,8 @@ def fill_ballast(
     with input_errors(ballast_map):
         rows = read_map(ballast_map, LENGTHS[units])
     with input_errors(project), changing(project) as change:
+        # From the open change, not from the file: it is locked, and what is read here is what is
+        # written.
         sheet = read_book(change.book)
         shapes = shapes_of(sheet.inputs)
         arrays = {row["id"]: row for row in sheet.inputs["arrays"] if row.get("id") in shapes}

@@ -30,6 +30,7 @@ INTERRUPTED = 130
 
 _GREEN, _RED, _YELLOW = ({"fg": color, "bold": True} for color in ("green", "red", "yellow"))
 _STYLES: Mapping[str, Mapping[str, Any]] = {
+    # Before "OK": of several words at one place, a regular expression takes the first.
     "OK with conditions": _YELLOW,
     "OK": _GREEN,
     "PASS": _GREEN,
@@ -58,6 +59,7 @@ def color_choice() -> bool | None:
     return False if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" else None
 
 
+# A cell of Excel has up to 32,767 characters, and an error may quote it.
 _LONGEST = 2000
 
 # Control characters, and those that separate lines or change the direction of a text.
@@ -77,6 +79,7 @@ def say(line: str) -> None:
 
 def print_json(document: Any) -> None:
     """Print a document."""
+    # Letters as they are: `set_up_console` has every pipe take UTF-8.
     click.echo(json.dumps(document, ensure_ascii=False))
 
 

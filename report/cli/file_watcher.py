@@ -38,6 +38,8 @@ def watch_project(source: Path, out: Path | None, interrupts: Sequence[int]) -> 
     with input_errors(source):
         workbook, results = located(source), b""
     while not interrupts:
+        # Taken before the report: a save while it is made differs from them, and starts the next
+        # round.
         stamps = settled(workbook)
         # After an error the next save is waited for as well.
         with suppress(SystemExit):
@@ -57,6 +59,7 @@ def report_again(workbook: Path, out: Path | None, earlier: bytes) -> bytes:
     if earlier:
         items = changes(former_from(earlier, made.folder), made.assessment).items
         say(f"changes since the last report: {len(items)}")
+        # A changed S_DS changes most numbers; the package lists them all only with --since.
         for item in items[:MAX_CHANGES]:
             say(f"  {item.title} {item.cell}".rstrip() + f": {item.before} -> {item.now}")
     return made.files["results.json"]
@@ -80,6 +83,8 @@ def file_stamps(top: Path) -> FileStamps:
     stamps = set()
     for folder, _, names in os.walk(top):
         for name in names:
+            # Locks: Excel keeps ~$input.xlsx beside an open workbook, LibreOffice
+            # .~lock.input.xlsx#.
             if not name.startswith((".", "~")) and not name.endswith(NO_INPUTS):
                 path = os.path.join(folder, name)
                 with suppress(OSError):  # it may be gone by now

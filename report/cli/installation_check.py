@@ -72,6 +72,8 @@ def _test_run() -> str:
     """Run a block whose displacement is known in closed form: mu g (0.8 s)^2 / 6."""
     from solver.sliding.checked import slide
 
+    # A line from -0.2 g to 0.05 g in 1 s. The block slides from the first sample, since 0.2 > mu;
+    # its relative velocity (0.1 t - 0.125 t^2) g is 0 again at 0.8 s, where 0 g is less than mu.
     prd_m = slide([-0.2, 0.05], 1.0, slope_rad=0.0, mu=0.1, units="g").prd_m
     is_right = abs(prd_m - 0.1 * 9.80665 * 0.8**2 / 6.0) < 1e-9
     return f"{'' if is_right else 'fails: '}{prd_m:.9f} m"

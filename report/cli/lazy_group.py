@@ -35,6 +35,7 @@ class LazyGroup(click.Group):
         """Return a command by its name, from its module."""
         if cmd_name not in self.commands and cmd_name in self._modules:
             module = import_module(self._modules[cmd_name])
+            # From here on click has it, as any group does.
             self.add_command(getattr(module, cmd_name.replace("-", "_")))
         return super().get_command(ctx, cmd_name)
 

@@ -36,6 +36,7 @@ class _Commands(LazyGroup):
 
         A closed pipe ends nothing, and Ctrl+C ends with one line and exit code 130.
         """
+        # First: it looks at the streams themselves, and `UntilClosed` stands in front of them.
         set_up_console()
         for name in ("stdout", "stderr"):
             stream = getattr(sys, name)
@@ -56,6 +57,8 @@ class _Commands(LazyGroup):
                 return super().invoke(ctx)
             except Exception as error:
                 # Compiled code (pydantic's is) may raise an error of its own for the interrupt.
+                # A prompt of click turns Ctrl+C into its own Abort, which its `main` would end
+                # with code 1.
                 if not received and not isinstance(error, click.Abort):
                     raise
             except KeyboardInterrupt:

@@ -48,6 +48,7 @@ def add_motions(
         )
         patterns = [name.casefold() for name in only or ("*",)]
         for name in list(sets):
+            # `fnmatch` alone takes capitals for small letters on Windows, and not on Linux.
             if not any(fnmatchcase(name.casefold(), pattern) for pattern in patterns):
                 del sets[name]
         for line in table(sets):

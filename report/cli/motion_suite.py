@@ -53,6 +53,7 @@ def generate_suite(
     shares = (0.0, *[1.0] * count, 1.0)
     with input_errors(into or folder), Progress(shares) as progress:
         # Before minutes of work: a folder that cannot be written is told at once.
+        # Motions of an earlier, larger suite would remain beside the new ones, and pass for them.
         check_folder(folder, count)
         output_folder(folder, folder, "")
         sheet = read(into) if into else None

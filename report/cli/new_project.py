@@ -36,6 +36,7 @@ def _write(folder: Path, units: UnitsFirst, *, is_example: bool, is_study: bool)
     if os.path.lexists(path):
         raise InputError(f"{path}: already exists; choose another folder, or move the file")
     records = folder / "records"
+    # Through a link at records/, the example would be written to wherever that leads.
     check_plain(records, folder, is_folder=True)
     try:
         if is_example and records.is_dir() and any(records.iterdir()):

@@ -78,6 +78,7 @@ def slide_block(
         click.echo(json.dumps(finite(values)))
         return
     rows = []
+    # Six digits: the numbers are read by a person here; --json has all of them.
     for name, value in values.items():
         rows.append((name, f"{value:.6g}" if isinstance(value, float) else str(value)))
     for line in aligned(rows, "><"):

@@ -62,12 +62,14 @@ def package(
         Progress(STEPS, quiet=quiet) as progress,
     ):
         made = make(source, out, since, progress, on_record, has_page=has_page)
+    # After the progress has ended: its line would be written over the warning.
     warn_of_other_packages(made.folder / OUTPUTS[0])
     return made
 
 
 def show(made: Made) -> None:
     """Print the summary of a package and its files; last the verdict, with the package."""
+    # The last lines are what is still on the screen after many findings and paths.
     *lines, verdict = summaries.summary(made.assessment)
     for line in lines:
         say(line)

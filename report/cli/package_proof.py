@@ -43,6 +43,7 @@ def prove(
     file: Path, *, records: Path | None, out: Path | None, quiet: bool, as_json: bool
 ) -> None:
     """Print whether the input in a package gives this package, and exit by the answer."""
+    # Where only drawings differ, as from another processor, a person compares the two by eye.
     again = out or file.with_name(f"{file.stem}-again.pdf")
     with input_errors(file, as_json=as_json), _ended_by_signals():
         data = read_package(file)
@@ -101,6 +102,7 @@ def _proof(
 def made_again(workbook: Path, out: Path, earlier: list[Path], progress: Progress) -> bytes:
     """Return the package of a workbook."""
     since = earlier[0] if earlier else None
+    # The file for a browser is not in the package, and nothing compares it.
     files = make(workbook, out, since, progress, has_page=False).files
     return files["calc-package.pdf"]
 
@@ -135,9 +137,12 @@ def sign_package(
     target = out or file.with_name(f"{file.stem}-signed.pdf")
     with input_errors(file):
         certificate = read_file(p12, MAX_KEY_BYTES, p12.name)
+        # A name that was not asked for is not followed through a link; one of --out is the user's
+        # own.
         if out is None:
             check_plain(target, file.parent)
         password = _typed_password() if password is None else password
+        # By file, not by name: --out may be a link to the package, or write it in other capitals.
         if target.exists() and target.samefile(file):
             raise InputError("the signed package must have a different name; use another --out")
         content = signed(read_package(file), certificate, password, time_stamp)

@@ -39,8 +39,10 @@ _TOKEN = re.compile(r"[A-Za-z0-9_~.-]+")
 _NOT_ENCRYPTED = (
     "warning: the connection is not encrypted; put a reverse proxy with TLS in front of it"
 )
+# The address is good once (`report.web.access.Keys`): a second tab needs another.
 _MORE = "Press Enter for another address, or Ctrl+C to stop."
 _STOPPED_S = 3
+# In an installation without setup, the first answer compiles the solver.
 _VISIT_S = 120.0
 
 
@@ -51,6 +53,8 @@ def serve_page(
     lasting = "" if token_file is None else _token(token_file)
     keys = Keys(lasting)
     with ExitStack() as stack:
+        # Listening before the address is printed: a port that is taken is told first, and a
+        # browser that is quicker than the server waits rather than fails.
         listening = stack.enter_context(listen(host or LOOPBACK, port))
         with input_errors(Path("serve")):
             # On Windows a file that is open stays: it is no reason for a traceback at the end.
@@ -98,6 +102,7 @@ def names_of(host: str | None, port: int) -> tuple[str, Sequence[str]]:
     end = "" if port == HTTP_PORT else f":{port}"
     if host is None:
         return LOOPBACK, [f"{name}{end}" for name in (LOOPBACK, "localhost")]
+    # A name of a host is no address, and raises ValueError.
     with suppress(ValueError):
         address = ipaddress.ip_address(host)
         # 0.0.0.0 stands for every address of the machine: any name may lead to it.
@@ -146,7 +151,10 @@ def _server(folder: Path, keys: Keys, hosts: Sequence[str]) -> uvicorn.Server:
             made(keys, folder, hosts),
             # It holds a body to its Content-Length.
             http="h11",
+            # The page opens no WebSocket.
             ws="none",
+            # By default uvicorn believes X-Forwarded-For and -Proto of this machine, where anyone
+            # may send.
             proxy_headers=False,
             log_level="warning",
             # The first address has the token.

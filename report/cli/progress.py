@@ -26,6 +26,7 @@ class Progress:
     def __init__(self, steps: int | Sequence[float] = 0, *, quiet: bool = False) -> None:
         """Begin; `steps` is their number or their usual shares of the time, 0 if not known."""
         shares = [1.0] * steps if isinstance(steps, int) else steps
+        # Without steps the list is empty: then there is no bar, and no time left.
         self._shares_before = [sum(shares[:n]) / sum(shares) for n in range(len(shares))]
         self._started = time.monotonic()
         self._quiet = quiet
@@ -33,6 +34,7 @@ class Progress:
         self._terminal = not quiet and sys.stderr is not None and sys.stderr.isatty()
         self._done, self._doing, self._expected_s = 0, "", 0.0
         self._ended = Event()
+        # A thread: a step may last a minute without a call, and the seconds are to go on.
         self._rewriting = Thread(target=self._rewrite, daemon=True)
 
     def __enter__(self) -> Progress:
@@ -53,12 +55,15 @@ class Progress:
             self._show(seconds)
         # A quick command prints none.
         elif seconds > QUIET_SECONDS:
+            # To the error output, as the line of a terminal: the output is for files, tables and
+            # JSON.
             click.echo(f"[{seconds:4.1f} s] {doing}", err=True)
         self._done += 1
 
     def _part(self) -> float:
         """Return how much was done when the current step began."""
         before = self._shares_before
+        # More calls than steps, as where a step repeats, leave the bar at its last part.
         return before[min(self._done, len(before) - 1)] if before else 0.0
 
     def _show(self, seconds: float) -> None:

@@ -18,6 +18,7 @@ from solver.verification.building import recorded_buildings
 from solver.verification.run import verify
 from solver.verification.verification_motions import recorded_triples
 
+# One for each call of `progress`: ten in `verify`, two in `manual_files`, the last below.
 VERIFY_STEPS = (18, 2, 3, 9, 11, 5, 0.1, 5, 0.1, 0.5, 7, 33, 2)
 """Usual shares of the time of the steps that a verification reports, as with --quick."""
 
@@ -37,6 +38,7 @@ def verify_solver(out: Path | None, *, quick: bool, records: Path | None) -> Non
         )
         files = manual_files(verification, dt.date.today(), progress)
         progress("writing the files")
+        # Before the exit code: a failed check is what the manual is read for.
         publish(files, out)
     failed = [row for row in verification.checks if not row.passed]
     passed = len(verification.checks) - len(failed)

@@ -81,10 +81,14 @@ def set_up_console() -> None:
     if sys.platform == "win32":
         from ctypes import windll  # only Windows has it
 
+        # STD_OUTPUT_HANDLE and STD_ERROR_HANDLE of Windows. Its code page lacks letters such as μ
+        # and θ, and Python would raise UnicodeEncodeError for them in a pipe.
         for stream, handle in ((sys.stdout, -11), (sys.stderr, -12)):
             if isinstance(stream, TextIOWrapper) and not stream.isatty():
                 stream.reconfigure(encoding="utf-8")
             elif stream is not None:
+                # 7: processed output (1), wrap at the end of a line (2), and terminal codes (4),
+                # which a console of Windows 10 has off.
                 windll.kernel32.SetConsoleMode(windll.kernel32.GetStdHandle(handle), 7)
 
 

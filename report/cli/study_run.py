@@ -47,6 +47,8 @@ def run(
         # A folder that was asked for by name may have the study of another workbook.
         if out is None:
             check_of_workbook(folder, NAME, plan.workbook)
+        # The table is a workbook as well: a study named study.xlsx would be replaced by its own
+        # results.
         check_apart([TABLE], folder, [source, source / "input.xlsx"])
         with Progress(quiet=quiet) as progress:
             results, files = make_study(

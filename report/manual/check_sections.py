@@ -54,10 +54,13 @@ def _results(verification: Verification) -> Iterator[tuple[str, str, int]]:
     """Yield what was found, how much of it, and the section that says more."""
     work, maps, links = verification.work, verification.maps, verification.links
     checked = statuses(verification.checks)
+    # P = 64 sub-steps in each sampling interval, for which the paper states its errors.
     paper = work[(work["method"] == "paper") & (work["setting"] == 64)]
     exact = work[work["method"] == "exact"]
     # Of the same record and case.
     compared = paper.merge(exact, on=["record", "case"])
+    # The median of ratios, not the ratio of medians: a case that slides long takes longer by
+    # either.
     times_longer = (compared[f"{TIME}_x"] / compared[f"{TIME}_y"]).median()
     largest = scientific(floor(verification))
     yield "Largest relative error of the exact method against 50-digit arithmetic", largest, 3
@@ -83,6 +86,8 @@ def _results(verification: Verification) -> Iterator[tuple[str, str, int]]:
     runs = sum(study.runs for study in verification.curves)
     took = seconds(sum(study.seconds for study in verification.curves))
     yield "The paper's parametric study", f"{runs:,} runs in {took}", 9
+    # The model building, which is first, has no recorded roof: it checks the algebra, not the
+    # model.
     for roof in [roof for roof in verification.roofs if roof.is_recorded][:1]:
         best = roof.predictions[0]
         by_height = (other for other in roof.predictions if other.name == BY_HEIGHT)

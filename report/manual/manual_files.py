@@ -100,6 +100,7 @@ def manual_html(
 
 def sections(verification: Verification) -> tuple[Section, ...]:
     """Return all sections except cover and contents."""
+    # The first roof is the model building, in every run; further ones come with --records.
     has_records = len(verification.roofs) > 1 or any(
         evidence.study.n_recorded for evidence in verification.models
     )
@@ -162,6 +163,8 @@ def verification_csv(verification: Verification) -> bytes:
     passed = ["yes" if row.passed else "no" for row in verification.checks]
     frame = pd.DataFrame(rows).assign(passed=passed)
     frame = frame.rename(columns={name: f"{name} [-]" for name in ("error", "tolerance")})
+    # A setting is a number whose meaning differs by method; the column of parameters has it in
+    # words.
     parts = [("check", frame), ("run", verification.work.drop(columns="setting"))]
     parts += [("run in two axes", evidence.work[_OF_TWO_AXES]) for evidence in verification.models]
     kinds, frames = zip(*parts, strict=True)

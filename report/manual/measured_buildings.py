@@ -102,6 +102,8 @@ def models(verification: Verification) -> Section:
         row_shares=joined([*map(general, model_study.ROW_SHARES)]),
         n_blocks=len(model_study.ROW_SHARES),
         least_mm=1e3 * LEAST_M,
+        # One number serves both: kinetic over static friction, and friction at low over high
+        # velocity.
         static_ratio=f"{1.0 / model_study.SLOW_SHARE:.4g}",
         pushed_caption=f"Distance from the initial position after 2{NO_BREAK}s: a sliding block "
         f"stops under an opposing acceleration of {model_study.PUSHED_BACK_G:g}{NO_BREAK}g; "
@@ -192,6 +194,8 @@ def _bands(roof: RoofComparison) -> Table:
         (
             _name("Building"),
             *(
+                # `k=k` keeps the k of this column; without it every column would show the last
+                # one.
                 (text(f"{low:g} to {high:g}", "s"), lambda prediction, k=k: _band(prediction, k))
                 for k, (low, high) in enumerate(roof.bands_s)
             ),
@@ -200,6 +204,7 @@ def _bands(roof: RoofComparison) -> Table:
 
 
 def _band(prediction: RoofPrediction, k: int) -> str:
+    # Of a logarithm, a standard deviation of 0.1 reads as 10%: e^0.1 is 1.105.
     return f"{prediction.band_ratios[k]:.2f} ({100.0 * prediction.band_scatters[k]:.0f}%)"
 
 

@@ -35,6 +35,7 @@ PAPER_P64_PERCENT = 0.48
 
 FIG_10_SLOPE_DEG, FIG_11_MU, FIG_12_PPA_G = 1.0, 0.5, 1.5
 # The paper's example on Fig. 12: slope [deg] and limit on PRD [m].
+# There the paper reads off a least friction coefficient of 0.55, for PPA 1.5 g.
 READ_OFF = (2.0, 0.5)
 
 
@@ -169,6 +170,7 @@ def _nearest(values: Floats, value: float) -> int:
 def _every(values: Floats) -> list[tuple[int, float]]:
     """Return at most eight of the values with their indices, including the last value."""
     step = math.ceil(values.size / 8)
+    # Counted back from the last: of 30 values with a step of 4, indices 1, 5, ... 29.
     return [(k, float(values[k])) for k in range((values.size - 1) % step, values.size, step)]
 
 
@@ -197,6 +199,7 @@ def contours(study: DesignCurves) -> str:
             linestyles=["-" if v in (500.0, 1000.0) else DASHED for v in levels],
         )
         axes.clabel(drawn, fmt=lambda value: f"{value:g} mm", inline_spacing=2)
+        # NaN where no friction coefficient of the study is enough: then nothing is read off.
         mu_min = study.minimum_mu(slope_deg, float(study.ppas_g[ppa]), wanted_m)
         if not math.isnan(mu_min):
             _read_off(axes, mu_min, slope_deg, wanted_m)

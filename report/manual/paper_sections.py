@@ -125,6 +125,7 @@ def curves(verification: Verification) -> Section:
         caption=f"Values from the curves at {_PPA}",
         values=closed_by(
             listed(verification.curves, columns),
+            # Read off the paper's text, at PPA 1.5 g, for its own record: another record differs.
             ("The paper, record of the paper", f"1000{NO_BREAK}mm", "0.55", "6,960", "—"),
         ),
         studies=[

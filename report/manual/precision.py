@@ -28,6 +28,7 @@ def floor(verification: Verification) -> float:
     """Return the largest relative error of the exact method against 50-digit arithmetic."""
     errors = [row.error for row in verification.checks if row.section.endswith("digits")]
     # A chart in logarithms has no place for 0.
+    # Less than the spacing of floating-point numbers at 1, 2.2e-16.
     return max([1e-16, *errors])
 
 
@@ -67,6 +68,8 @@ def work(verification: Verification) -> Section:
     """Return accuracy against run time."""
     runs, floor_share = verification.work, floor(verification)
     plane = verification.models[0].work if verification.models else runs[:0]
+    # The tolerance of a package: what the manual says of accuracy is of the numbers that are
+    # sealed.
     ours = plane[(plane["method"] == OURS) & (plane["setting"] == DEFAULT_TOLERANCE)]
     return section(
         "manual/work",

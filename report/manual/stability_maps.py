@@ -72,6 +72,7 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
     norm = BoundaryNorm([0.0, 0.1, 1.0, 10.0, 1e300], bands.N)
     # A failed cell has no color of its error, which would look like a result; its hatching follows.
     errors = np.ma.masked_where(sweep.failed, sweep.error_percent)
+    # Edges in the color of the face: viewers of SVG and PDF show hairlines between bare cells.
     axes.pcolormesh(x, y, errors, cmap=bands, norm=norm, linewidth=0.4, edgecolors="face")
     for row, column in np.argwhere(sweep.failed):
         axes.fill(
@@ -132,6 +133,7 @@ def comparison(roof: RoofComparison) -> str:
     with style():
         figure = Figure(figsize=(WIDTH_IN, height))
         top = height
+        # From the top down, in inches: a building that was not recorded has the spectra alone.
         for draw, panel_in in panels:
             top -= _ABOVE_IN + panel_in
             draw(figure.add_axes((0.085, top / height, 0.9, panel_in / height)), roof)

@@ -54,6 +54,7 @@ LOOKS: Mapping[str, dict[str, Any]] = {
         "markeredgewidth": 0.9,
         "linewidth": 1.1,
     }
+    # Strict: a new method without a style of its own stops here, at import.
     for method, style in zip(METHODS.values(), _STYLES, strict=True)
 }
 
@@ -101,6 +102,7 @@ def overview(
         for axes in (left, right):
             logarithmic(axes, 9, 12)
         lines: dict[str, Any] = {}
+        # The right panel has every method; those in two axes alone follow in the legend.
         for axes in (right, left):
             handles, labels = axes.get_legend_handles_labels()
             lines |= dict(zip(labels, handles, strict=True))

@@ -35,6 +35,8 @@ def acceptance_table(package: PackageData) -> Table:
     )
     rows = [
         (
+            # The note below the table: AC156 has limits from 1.3 Hz up, but slow shaking drives
+            # sliding.
             f"{check.title} *" if check.clause == THIS_PROGRAM else check.title,
             *texts(check, package.fmt.us_first),
             check.note or "—",

@@ -75,6 +75,8 @@ def _error(run: OrientedRun) -> str:
     if model == Model.NO_SLIP:
         return "the array does not slip; the error is rounding error"
     if model >= Model.TWO_AXES:
+        # Where friction never decreases with velocity, two nearby solutions do not move apart, and
+        # a small error stays small. Otherwise it may grow, so that it is only estimated.
         basis = "a bound" if run.scene.friction.is_monotone else "an estimate from two tolerances"
         return (
             "motion in two axes is computed to a tolerance, and the error of this PRD is below "
@@ -249,6 +251,7 @@ def _change(value: float, base: float) -> str:
     if math.isnan(value) or not base > 0.0:
         return NO_VALUE if math.isnan(value) or math.isnan(base) else "—"
     share = 100.0 * (value / base - 1.0)
+    # Up to 0.05 it prints as 0.0, which has no sign.
     return f"{'+' if share > 0.05 else ''}{number(share, 1)}%"
 
 

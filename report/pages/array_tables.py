@@ -93,6 +93,7 @@ def comparison_table(package: PackageData) -> Table:
     if any(item.floor_m for item in arrays):
         # Peer review removes it.
         columns.append(
+            # 0 stands for no floor; NaN prints as none.
             (required("Floor"), lambda item: item.floor_m or math.nan, package.marks.floor)
         )
     columns += [

@@ -79,6 +79,8 @@ def _period(package: PackageData) -> Markup | None:
         return None
     coefficient, exponent = APPROXIMATE_PERIODS[building.structure]
     return Markup("{:g} × {}<sup>{:g}</sup> = {}{}s").format(
+        # C_t of ASCE 7, Table 12.8-2 is for a height in feet, also where the package is in SI
+        # units.
         coefficient, number(height_m / FOOT_M, 1), exponent,
         number(first_period_s(package.data), 3), NO_BREAK,
     )  # fmt: skip

@@ -82,6 +82,7 @@ def fitted(sheet: FirstSheet, tops: Mapping[str, float], bottom: float) -> First
     """
     over = tops[END] - bottom
     # What is below the last row of a table goes with it, but not the margin of the table.
+    # 6 pt, of each of the two tables (`package.css`).
     over += 2 * _MARGIN_PX if over > 0.0 else 0.0
     largest, conditions, has_effects = len(sheet.largest), len(sheet.conditions), True
 
@@ -89,6 +90,8 @@ def fitted(sheet: FirstSheet, tops: Mapping[str, float], bottom: float) -> First
         return tops[f"{name}{count}"] - tops[f"{name}{count - 1}"]
 
     while over > 0.0 and largest:
+        # Satisfied checks go first: they are in the part on checks, and nothing has to be done for
+        # them.
         over -= height(LARGEST, largest)
         largest -= 1
     if over > 0.0:
@@ -141,6 +144,7 @@ def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, s
     places = [*("" for _ in sheet.failed), *(f"{LARGEST}{k}" for k in range(len(sheet.largest)))]
     for check, place in zip((*sheet.failed, *sheet.largest), places, strict=True):
         subject = check.subject or "project"
+        # The row of a satisfied kind stands for all of that kind: its largest ratio.
         if check.is_satisfied and counts[check.id] > 1:
             subject += f" (of {counts[check.id]})"
         found, limit = texts(check, us_first, is_both=False)

@@ -40,6 +40,7 @@ def _facts(package: PackageData, description: str) -> Iterator[tuple[str, str]]:
     yield "Client", project.client or "—"
     yield "Address", project.address or "—"
     if site.latitude_deg is not None:
+        # Nine digits are 0.1 m or less, and print no rounding error of a binary number.
         place = f"{site.latitude_deg:.9g}°, {site.longitude_deg:.9g}°"
         yield "Lat., long.", place.replace("-", "−")
     yield "Jurisdiction", site.jurisdiction or "not entered"

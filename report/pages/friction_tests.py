@@ -212,6 +212,7 @@ def _compared(package: PackageData, series: Sequence[Series]) -> Iterator[str]:
         tests = governing(series, array.mu_report)
         # As printed: a difference that the page does not show is none.
         used, mean = round(tests.mean_of(array.friction), 3), round(tests.mean, 3)
+        # Again, as 0.45 - 0.44 is 0.010000000000000009 in binary.
         above = round(used - mean, 3)
         is_by_velocity = array.friction.is_by_velocity
         mu = "mean of μ(v) at the tested velocities" if is_by_velocity else "μ ="
@@ -237,6 +238,7 @@ def _fit_words(series: Series, fit: FittedLaw) -> str:
     if not fit.is_determined:
         return f"{start} the runs do not determine a velocity-dependent coefficient."
     mean = math.fsum(run.mu for run in runs) / len(runs)
+    # Divided by n, as `FittedLaw.rms`: the two are compared.
     scatter = math.sqrt(math.fsum((run.mu - mean) ** 2 for run in runs) / len(runs))
     law = fit.law
     return (
@@ -261,6 +263,7 @@ def _fits(package: PackageData) -> Iterator[tuple[Series, FittedLaw]]:
     """Yield the laws fitted to the runs of the governing report, by condition."""
     all_series = tested(package.data)
     reports = dict.fromkeys(series.report for series in all_series)
+    # Of several reports each array names its own, so that no fit is of all of them.
     if len(reports) != 1:
         return
     for series in all_series:

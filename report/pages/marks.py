@@ -52,6 +52,8 @@ class Marks:
     def of(self, key: str) -> str:
         """Return the marks of a provision."""
         marks = dagger(self.assessment.rules.values[key])
+        # An override, ‡, is kept: it is a decision of this project, and `MEANING` is printed with
+        # it.
         return marks if self.has_daggers else marks.removeprefix("†")
 
     def clause(self, key: str) -> str:

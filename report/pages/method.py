@@ -130,6 +130,7 @@ def _prescriptive(package: PackageData) -> Mapping[str, object]:
         "has_importance_in_separation": rules.importance_in_separation,
         "prescriptive_factor": f"{rules['prescriptive_factor_in']:g}{NO_BREAK}in{mark}",
         "i_e": number(site.i_e, 2),
+        # Below 0.4, the square of S_DS - 0.4 would rise again, the weaker the earthquake.
         "s_ds_or_least": number(max(site.s_ds, 0.4), 3),
         "prescriptive_minimum": fmt.both_up(given.minimum_m, marks.of("prescriptive_minimum_in")),
         "prescriptive_governs": given.governs,
@@ -198,6 +199,7 @@ def _strength(package: PackageData) -> Mapping[str, object]:
     return {
         "strength_clause": marks.clause("interconnection_sds"),
         "strength_of": f"{array.id}: max({first} × {number(package.data.site.s_ds, 3)}, {second}) "
+        # W_1 is of the lighter side of a section, which is half the array at most.
         f"× {package.fmt.both(array.weight_n / 2.0, Quantity.WEIGHT)}",
         "strength": result,
         "strength_compared": comparison,

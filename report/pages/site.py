@@ -198,6 +198,7 @@ def _category_and_force(data: ProjectInput) -> Iterator[_Row]:
         by_short, by_long or _NOT_ENTERED, NO_BREAK, symbol("S_1"),
         _NOT_ENTERED if site.s_1_g is None else by_s_1,
     )  # fmt: skip
+    # Letters, A the mildest; a category that is not known is an empty text, below all of them.
     category = max(categories) + site.sdc_mark
     yield _row("Seismic design category from these values", "", category, clause("sdc"), source)
     yield _row("Seismic design category used", "SDC", site.sdc_text, clause("sdc"))
@@ -222,6 +223,8 @@ def _ac156(package: PackageData) -> Iterator[_Row]:
     of_roof = Markup("{} (1 + {} {}/{}){}").format(s_ds, slope, symbol("z"), symbol("h"), below)
     amplified = f"{_g(site.s_ds)} × (1 + {slope} × {number(site.z_over_h, 3)}){below}"
     if targets.roof.name != OWN:
+        # Of the four corners, 0.1, 1.3, 8.3 and 33.3 Hz: [1] begins the plateau, [3] is the rigid
+        # end.
         title, sa_g = "AC156 horizontal spectrum at the roof", horizontal.sa_g
         flexible = Markup("computed: {} = {}, at most 1.6 {}").format(of_roof, amplified, s_ds)
         rigid = Markup("computed: 0.4 {}").format(of_roof)
@@ -247,6 +250,7 @@ def site_force(data: ProjectInput) -> ComponentForce | None:
     # ASCE 7-22 13.3.1.1: H_f takes T_a where the period is not known.
     if period_s is None and building.structure is not None:
         period_s = approximate_period_s(building.structure, site.structure_height_m)
+    # ASCE 7-16 has one height factor, and no period in it.
     return component_force(
         site.edition,
         s_ds_g=site.s_ds,

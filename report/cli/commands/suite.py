@@ -13,6 +13,7 @@ from report.cli.option_types import SOURCE, Number, reading
 
 @click.command()
 @click.argument("folder", metavar="DIR", type=SOURCE)
+# `--records *.AT2` comes from the shell as many words, of which an option takes the first alone.
 @click.argument("more", metavar="", nargs=-1)
 @click.option("--sds", "s_ds_g", type=Number("g"), help="S_DS.")
 @click.option("--zh", "z_over_h", type=Number(),
