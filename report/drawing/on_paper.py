@@ -126,6 +126,7 @@ def _ticks(low: float, high: float) -> list[float]:
     """Return the round values within a range."""
     min_step = (high - low) / _TICKS
     decade = 10.0 ** math.floor(math.log10(min_step))
+    # 1e-9 here and below: 0.3 / 0.1 is 2.9999999999999996, and the tick at 0.3 would be lost.
     step = next(s * decade for s in (1, 2, 5, 10) if s * decade >= min_step * (1.0 - 1e-9))
     first = math.ceil(low / step - 1e-9)
     return [k * step for k in range(first, math.floor(high / step + 1e-9) + 1)]

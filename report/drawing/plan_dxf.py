@@ -147,12 +147,14 @@ def _add_layout(document: Drawing, plan: PlanDrawing) -> None:
     """Add the layout: a window on the plan to scale, above the title block."""
     from ezdxf.enums import TextEntityAlignment  # with `ezdxf`, as above
 
+    # Not plotted: its frame would stand within the border of the sheet.
     document.layers.get(Layer.WINDOW.title).dxf.plot = 0
     wide, tall = _SHEETS[plan.is_feet]
     layout = document.paperspace("Layout1")
     margins = (_MARGIN_IN,) * 4
     layout.page_setup(size=(wide, tall), margins=margins, units="inch", device="DWG To PDF.pc3")
     long, high = wide - 2.0 * _MARGIN_IN, tall - 2.0 * _MARGIN_IN - _TITLE_IN
+    # The length of the plan that the height of the window shows is what sets its scale.
     layout.add_viewport(
         center=(long / 2, _TITLE_IN + high / 2),
         size=(long, high),

@@ -252,6 +252,7 @@ def _named(
             name = free_name(kind, counts, names)
             unnamed = "named in reading order" if line.sizes else "no text inside"
         elif name.casefold() in taken:
+            # The first stays: an ID names one row of the workbook.
             detail = f"'{name}' of {taken[name.casefold()]}"
             unread.append(_unread(line, "a second outline of the same name", detail))
             continue

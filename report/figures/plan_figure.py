@@ -153,6 +153,8 @@ def array_section(array: Array, us_first: bool) -> str:
 
 def _section(axes: Axes, roof: _Roof, array: Array, us_first: bool) -> None:
     _line(axes, roof.at(0.0, 0.0), roof.at(3.2, 0.0), color=INK, linewidth=1.4)
+    # Inches on the page, along the roof from its upslope end and up from it: a picture, not to
+    # scale.
     feet = (0.55, 1.25, 1.95)
     for s in feet:
         _block(axes, roof, (s - 0.05, s + 0.05), (0.0, 0.14), facecolor=INK)

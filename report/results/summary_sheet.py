@@ -47,6 +47,8 @@ def write_summary(
 
     From the rows of the Design and Clearances worksheets.
     """
+    # Added first, to be in front (`xlsx`), and written last: its cells refer to those of the
+    # others.
     sheet: Worksheet = pages.workbook.get_worksheet_by_name("Summary")
     for index, width in enumerate(_WIDTHS):
         sheet.set_column(index, index, width)
@@ -70,6 +72,7 @@ def write_summary(
     pages.on_paper(sheet)
     sheet.set_portrait()
     pages.mark_verdicts(sheet, top, len(_WIDTHS))
+    # One page wide; 0 is as many tall as it takes.
     sheet.fit_to_pages(1, 0)
 
 

@@ -120,6 +120,7 @@ def _prescribed_table(results: StudyResults, prescribed: Prescribed) -> Table:
 
 def _margins(ratio: Floats, levels: Sequence[float]) -> tuple[str, str, str]:
     """Return the intensity up to which the prescriptive value is enough, and the least margin."""
+    # Not `ratio > 1`: NaN, no value, is not safe either.
     unsafe = np.flatnonzero(~(ratio <= 1.0))
     if not unsafe.size:
         reach = f"{levels[-1]:.12g}, all"

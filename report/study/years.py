@@ -50,8 +50,10 @@ RECURRENCES = (72.0, 475.0, 700.0, 975.0, 2475.0)
 # Recurrence of the PRD that is compared with the clearance: as permit packages promise it.
 VERDICT_YEARS = 700.0
 
+# Permit packages promise the PRD of 700 years with that of smaller events over 25 years.
 SPANS = (25.0, 50.0)
 LIFE_YEARS = 25.0
+# With so many, a probability of 5% has a standard error of 0.07%: sqrt(0.05 x 0.95 / 100,000).
 LIVES = 100_000
 
 # Limits from 0.1 mm on, evenly in the logarithm.

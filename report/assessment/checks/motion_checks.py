@@ -126,6 +126,8 @@ def drift_limits(prepared: Sequence[PreparedMotion]) -> tuple[Limit, ...]:
         largest_end = (0.0, "")
         for motion in motions:
             for name, measures in motion.measures.items():
+                # To a nanometer: rounding error at the end of a generated motion is 0, and names
+                # no motion.
                 value = round(abs(getattr(measures, end)), 9)
                 largest_end = max(largest_end, (value, f"{motion.motion_id}, {name}"))
         return largest_end

@@ -51,6 +51,7 @@ def missing_rows(
     Raises `InputError` for what is wrong elsewhere than in motions and clearances, or if the rows
     have no place.
     """
+    # Motions may be missing or wrong yet: the rows need the plan alone.
     data = without_motions(sheet)
     us_first = data.us_first
     pairs = pairs_before_runs(data, sheet.addresses, arrays)

@@ -278,6 +278,7 @@ def _prescriptive_mu(state: _State, check: Check) -> Iterator[Remedy]:
     array = by_id(state.done.arrays, check.arrays[0]).array
     if isinstance(check.limit, Amount) and array.minimum_mu > 0.0:
         mu = array.mu * check.limit.value / array.minimum_mu
+        # Up to a hundredth, as it is printed and entered: rounded down, it would still be short.
         yield _friction(state, check, {array.id: math.ceil(100.0 * mu - 1e-6) / 100.0})
 
 

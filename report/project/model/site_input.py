@@ -205,6 +205,7 @@ def least_category(row: InputRow) -> Sdc | None:
 def tabulated_f_a(row: InputRow) -> float | None:
     """Return F_a of its table where S_MS follows from it; None where that is site-specific."""
     edition, fields = edition_of_row(row), ("s_s_g", "site_class", "hazard", "s_ms_g", "s_ds_g")
+    # ASCE 7-22 has no F_a: its S_MS is read off for a site class.
     if edition is None or edition.name != F_A.edition or not row.keys() >= {*fields}:
         return None
     s_s_g, site_class, hazard, *coefficients = (row[name] for name in fields)

@@ -80,6 +80,7 @@ ARRAYS = table("arrays", "Arrays", "Arrays", Array, "One row for each array that
           " coefficient."),
     Entry("Importance factor I_p", "i_p", 1.0, is_rare=True, note="Component importance factor."
           " PV1-2012 separations use the larger I_p of the array and the adjacent item."),
+    # PV1-2012 limits the height by the base, ASCE 7 by the spacing of the supports: two numbers.
     Entry("Base dimension", "base_m", 60.0, Quantity.SIZE, usual=(12.0, 240.0), is_rare=True,
           note="Smallest plan dimension of the supporting base, for the low-profile limit of"
           " PV1-2012. If blank, the support spacing is used (conservative)."),

@@ -54,6 +54,7 @@ def write_panel(sheet: Worksheet, top: int, tables: Tables, *, is_us: bool) -> i
         factor = "I_e of the building" if neighbor.is_edge else "the largest I_p"
         note = f"PV1-2012: multiplied by {factor}."
         _write_line(sheet, line, (label, answer_columns.separation(unit, line), note), lengths)
+        # The formula beside it reads which separation it is from this cell (`$D`).
         style.put(sheet, line, 4, "", color=style.GRAY).value = number
     return row + 3 + len(_SEPARATIONS) + 1
 
