@@ -59,6 +59,8 @@ def scene_of(
     problems: list[str] = []
     ax_mps2, ay_mps2, az_mps2, dt_s, scale, units = shaking
     components = {"ax_mps2": ax_mps2, "ay_mps2": ay_mps2, "az_mps2": az_mps2}
+    # Every check below notes its errors in `problems` and goes on with NaN or no record; nothing is
+    # computed with these, because `raise_any` comes first.
     records, dt_s, factor = unpacked(components, dt_s, problems)
     size = unit_size(components, units, problems)
     ax, ay, az = checked_records(records, problems, size)
@@ -82,6 +84,7 @@ def scene_of(
         ax_mps2=ax,
         ay_mps2=ay,
         az_mps2=az,
+        # A motion has a factor of its own beside its arrays, which stay as they are.
         scale=scale * factor,
         slope_rad=slope_rad,
         friction=friction,
@@ -139,11 +142,15 @@ def _step_of_series(name: str, series: Any, problems: list[str]) -> float | None
     """Return the step of the index [s], if it is of times; None if it counts samples."""
     times = np.asarray(series.index)
     if times.dtype.kind in "mM":
+        # Dates become time deltas from the first one; a delta over one second is a number of
+        # seconds.
         times = (times - times[:1]) / np.timedelta64(1, "s")
     # An index of whole numbers counts samples.
     if times.dtype.kind != "f" or len(times) < 2:
         return None
     steps = np.diff(times)
+    # Times such as 0.01 k are each rounded: nine digits give back 0.01, by which a record and a
+    # column of the same step agree.
     step = float(f"{(times[-1] - times[0]) / len(steps):.9g}")
     if not (step > 0.0 and np.abs(steps - step).max() <= 1e-3 * step):
         problems.append(f"{name} has an uneven index; use times at one step, in seconds")
@@ -199,6 +206,7 @@ def unpacked(
     if len(steps) > 1:
         steps_text = " and ".join(f"{step:g} s" for step in sorted(steps))
         problems.append(f"the components have steps of {steps_text}; use components of one step")
+    # Any of them, where they differ: the problem is noted above.
     dt_s = max(steps, default=dt_s)
     if any(isinstance(value, Motion) for value in transverse):
         problems.append("a motion is entered as one component; use it first and by itself")
@@ -222,6 +230,7 @@ def overflow(scene: Scene) -> list[str]:
     peak = scene.scale * max(float(np.abs(record).max()) for record in records if record.size)
     lasts = scene.dt_s * (scene.ax_mps2.size - 1)
     mus = scene.friction.mu_slow, scene.friction.mu_fast, scene.friction.mu_static
+    # Of the size of |G| + mu N, but for a small factor, for which `_LARGEST` leaves room.
     push = (abs(peak) + scene.g_mps2) * (1.0 + max(mus))
     if is_in_range(push, scene.dt_s, lasts):
         return []
@@ -280,6 +289,7 @@ def _is_positive(value: float) -> bool:
 
 
 def _is_slope(value: float) -> bool:
+    # At 90 deg cos(theta) is zero, and u = s cos(theta) tells nothing of s.
     return abs(value) < math.pi / 2
 
 
@@ -321,7 +331,7 @@ def checked_records(
 def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:
     """Return the arguments that the two-axes solver does not accept."""
     problems: list[str] = []
-    if method != "exact":
+    if method_of(method) is not EXACT:
         problems.append(
             f"method is {shortened(method)}; two axes and velocity-dependent friction need 'exact'"
             ": omit ay_mps2 and use one coefficient, or omit the method"
@@ -354,6 +364,7 @@ def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> 
     """Return a read-only float64 view: numba would compile a second version for writable arrays."""
     remedy = f"{name} is not a row of real numbers; use a sequence of accelerations"
     try:
+        # Not `asarray`, which would drop the mask of a masked array and take what is under it.
         samples = np.asanyarray(values)
     except (TypeError, ValueError, OverflowError):
         problems.append(remedy)
@@ -367,7 +378,9 @@ def checked_record(name: str, values: ArrayLike | None, problems: list[str]) -> 
         )
         problems.append(f"{name} {problem}; use a sequence of accelerations, all real numbers")
         return NO_RECORD
+    # The one layout for which the kernels are compiled.
     record = np.ascontiguousarray(samples, dtype=np.float64)
+    # One sample has no interval to slide in.
     if record.ndim != 1 or record.size < 2:
         problems.append(f"{name} has shape {record.shape}; use one row of 2 samples or more")
         return NO_RECORD

@@ -221,6 +221,15 @@ def test_an_own_method_is_run_beside_the_eight_without_an_error(components):
     assert history.events == ()
 
 
+def test_the_exact_method_is_taken_as_an_object_in_two_axes():
+    scene = {"slope_rad": 0.01, "mu": 0.2, "ay_mps2": [0.5 * a for a in PULSE]}
+    by_name = solver.slide(PULSE, 0.1, **scene, method="exact")
+    assert solver.slide(PULSE, 0.1, **scene, method=METHODS["exact"]) == by_name
+    mine = replace(METHODS["frozen-normal"], name="exact")
+    with pytest.raises(InputError, match="two axes and velocity-dependent friction need 'exact'"):
+        solver.slide(PULSE, 0.1, **scene, method=mine)
+
+
 PULSE_G = [0.0, 0.4, -0.4, 0.0, 0.0, 0.0]
 PULSE = [9.80665 * a for a in PULSE_G]
 
