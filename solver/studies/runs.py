@@ -184,7 +184,9 @@ def _is_level_enough(
     if track.z is None:
         return np.ones(len(scenes), dtype=bool)
     bound = np.maximum(SETTINGS.matters_m, SETTINGS.matters_share * full[0])
-    effect = np.abs(full[:4] - level[:4]).max(axis=0) + _rounding(track, scenes)
+    # All rows but the speed, as `model_selection` compares them: a vertical record may change the
+    # residual alone.
+    effect = np.abs(full[:-1] - level[:-1]).max(axis=0) + _rounding(track, scenes)
     return np.asarray(effect <= bound)
 
 

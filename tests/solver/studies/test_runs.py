@@ -76,6 +76,16 @@ def test_rows_are_solutions_at_the_edge_of_uplift():
     list(assert_rows_agree(replace(c, cases=grid(1, [slope], [0.5], scales))))
 
 
+def test_rows_are_solutions_where_the_vertical_changes_the_residual_alone():
+    rng = np.random.default_rng(5)
+    ax, az = rng.normal(0.0, 4.0, 40), rng.normal(0.0, 0.3, 40)
+    shaken = solver.motion(ax, az_mps2=az - az.mean(), dt_s=0.05, id="shaken")
+    cases = grid(1, [0.0, 0.03, 0.06], [0.2, 0.25, 0.3, 0.35, 0.4], np.linspace(0.5, 2.0, 7))
+    parts = list(assert_rows_agree(Campaign(motions=((shaken,),), cases=cases)))
+    models = {int(model) for rows in parts for model in np.unique(rows.model)}
+    assert models >= {Model.ONE_AXIS, Model.ONE_AXIS_VERTICAL}
+
+
 @pytest.mark.nightly
 def test_curves_are_those_of_the_paper_procedure():
     """Figs. 10 to 12: both signs of the slope are both polarities of the record."""
