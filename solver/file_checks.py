@@ -77,6 +77,8 @@ def within(folder: Path, name: str) -> Path:
     InputError
         If it leads out of the folder or to a device, or would be another name on Windows.
     """
+    # Zips of Windows programs may separate folders with a backslash, which Linux takes for a
+    # letter.
     parts = name.replace("\\", "/").split("/")
     if wrong := _wrong(name, parts):
         raise InputError(f"'{printable(name)}' {wrong}")
@@ -85,6 +87,7 @@ def within(folder: Path, name: str) -> Path:
 
 def _wrong(name: str, parts: Sequence[str]) -> str:
     """Return what is wrong with a path and what would do; empty if nothing is."""
+    # A name of bytes that are no UTF-8 has surrogates in Python, which would not encode otherwise.
     longest = max(len(part.encode(errors="surrogatepass")) for part in parts)
     if len(name) > _MOST_NAME or longest > _MOST_BYTES:
         return "is too long; shorten its name"

@@ -29,6 +29,7 @@ PAUSES_S = (0.1,) * 10 if sys.platform == "win32" else ()
 
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file at a path that the user gave, as `write_all` does; a link there is followed."""
+    # The file that a link leads to is replaced: `os.replace` would replace the link itself.
     path = Path(os.path.realpath(path))
     if not path.parent.is_dir():
         raise InputError(f"{path}: cannot be written (No such file or directory)")
@@ -46,6 +47,8 @@ def write_all(files: Mapping[str, bytes], folder: Path) -> None:
     InputError
         If one cannot be written, or has no plain place.
     """
+    # They end in the reverse order: what was replaced is put back, then the files with random names
+    # are removed, and only then the folders, which are empty again.
     with ExitStack() as added, ExitStack() as sweep, ExitStack() as undo:
         target = folder
         try:
@@ -57,9 +60,12 @@ def write_all(files: Mapping[str, bytes], folder: Path) -> None:
                 check_length(part)
                 add_folder(target.parent, added)
                 parts.append(part)
+                # "x" opens nothing that is there already, so no link that someone put there is
+                # followed.
                 with parts[-1].open("xb") as file:
                     file.write(content)
                     file.flush()
+                    # Else a power failure may leave the name of the file without its content.
                     os.fsync(file.fileno())
             # Only now, with every content on disk: a disk that is full changes nothing.
             for part, name in zip(parts, files, strict=True):
@@ -70,6 +76,7 @@ def write_all(files: Mapping[str, bytes], folder: Path) -> None:
             raise InputError(
                 f"{target}: cannot be written ({error.strerror}){close}. No file was changed"
             ) from error
+        # Nothing is undone any more; `sweep` still removes the copies of what was replaced.
         undo.pop_all()
         added.pop_all()
 
@@ -131,9 +138,11 @@ def _replace(part: Path, target: Path, sweep: ExitStack, undo: ExitStack) -> Non
         if not backup.exists():
             shutil.copy2(target, backup)
         undo.callback(_put_back, backup, target, part)
+        # A new file has the permissions of the process, not those of the file that it replaces.
         part.chmod(target.stat().st_mode & 0o777)
     else:
         undo.callback(_persist, target.unlink, True)
+    # Not `os.rename`, which refuses on Windows to replace a file.
     _persist(os.replace, part, target)
 
 
@@ -148,4 +157,5 @@ def _persist(act: Callable[..., object], *arguments: object) -> None:
             act(*arguments)
             return
         time.sleep(pause_s)
+    # The last try is outside of the loop, so that its error is raised.
     act(*arguments)

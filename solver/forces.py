@@ -55,6 +55,7 @@ def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
     return scene.ax_mps2, across, up
 
 
+# Runs of a suite have few lengths: their zeros are made once, not for every run.
 @lru_cache(8)
 def _still(size: int) -> Floats:
     still = np.zeros(size)
@@ -73,5 +74,6 @@ def forces(scene: Scene) -> Forces:
 def normal_mps2(scene: Scene) -> Floats:
     """Return N / m alone [m/s2], shape (n,)."""
     ax, _, az = components(scene)
+    # Eq. 6 of the paper, where az is zero.
     gravity = scene.g_mps2 + scene.scaled(az)
     return gravity * math.cos(scene.slope_rad) + scene.scaled(ax) * math.sin(scene.slope_rad)

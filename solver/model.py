@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
+# Both exact: the international inch of 1959, and g_n of the third General Conference on Weights and
+# Measures (1901).
 INCH_M = 0.0254
 STANDARD_GRAVITY_MPS2 = 9.80665
 
@@ -130,6 +132,7 @@ class SlideResult:
 
     @property
     def _values(self) -> tuple[object, ...]:
+        # Only NaN differs from itself; None equals itself wherever it stands.
         return tuple(None if value != value else value for value in astuple(self))
 
 
@@ -230,6 +233,8 @@ class Friction:
     @property
     def is_monotone(self) -> bool:
         """Whether it never decreases with velocity, starting from rest: then errors cannot grow."""
+        # Friction is then a monotone operator of velocity: the difference of the velocities of two
+        # blocks never increases (Brezis, cited in `solver.kernels.two_axes.slide_plane`).
         return self.mu_fast >= self.mu_slow and self.mu_static == self.mu_slow
 
 

@@ -72,6 +72,8 @@ class Settings:
 
     def bound_m(self, prd_m: float) -> float:
         """Return the effect on a displacement up to which a component is not modeled [m]."""
+        # Below a PRD of 200 mm the first is the larger: half a percent of 10 mm would have every
+        # component modeled.
         return max(self.matters_m, self.matters_share * prd_m)
 
 
@@ -278,7 +280,8 @@ def _explain(
 def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
     """Return the largest change of a displacement by more complete models [m]; inf: none."""
     # Excursions are compared as well: two models may give the same PRD by chance on different
-    # paths. So are residuals, which cumulative displacement adds up.
+    # paths. So are residuals, which cumulative displacement adds up. The error of the fuller model
+    # counts as an effect, too: its run may be off by that much.
     effects = [
         abs(getattr(result, name) - getattr(chosen, name)) + result.error_m
         for result, name in product(fuller, _LENGTHS)
@@ -388,4 +391,5 @@ def _level(scene: Scene) -> Scene:
 
 
 def _mm(value_m: float) -> str:
+    # Through a float: `.2g` alone prints 120 as 1.2e+02.
     return f"{float(f'{value_m * 1e3:.2g}'):g}{NO_BREAK}mm"

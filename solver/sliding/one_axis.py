@@ -42,6 +42,7 @@ def bounds_of(scene: Scene) -> RecordBounds:
     return RecordBounds(*map(kernel.bounds, components(scene)))
 
 
+# By position alone, so that a parameter of an own method may be called `scene`.
 def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideResult:
     """Slide a checked scene along the slope by a method; cross-slope shaking is neglected."""
     return _run(method, parameters, prepared(scene), _NO_HISTORY)[0]
@@ -63,6 +64,7 @@ def run_bounded(scene: Scene, bounds: RecordBounds) -> SlideResult:
         scene.scale,
     )
     outcome = Outcome(True, *run)
+    # One comparison for both: infinity is not below infinity, nor is NaN.
     if n_min_g < 0.0 or not outcome.s_max - outcome.s_min < math.inf:
         # Tells what gives no displacement.
         return _run(EXACT, {}, prepared(scene, bounds), _NO_HISTORY)[0]
@@ -171,10 +173,13 @@ def prepared(scene: Scene, bounds: RecordBounds | None = None) -> AxisScene:
         ax=scene.ax_mps2,
         x=bounds.x if bounds else kernel.bounds(scene.ax_mps2),
         az=scene.az_mps2,
+        # For a missing vertical `bounds_of` has bounds of zeros, and a scene of one axis those of
+        # none.
         z=bounds.z if bounds and scene.az_mps2.size else kernel.bounds(scene.az_mps2),
         dt=scene.dt_s,
         sn=math.sin(scene.slope_rad),
         cs=math.cos(scene.slope_rad),
+        # A run in one axis neglects a friction law: it takes the coefficient at low velocity.
         mu=scene.friction.mu_slow,
         g=scene.g_mps2,
         scale=scene.scale,

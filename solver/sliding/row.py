@@ -25,6 +25,7 @@ from solver.sliding.arguments import is_zero_or_more
 # Limit on time steps, above which links are too stiff: about one minute for a row of five.
 MOST_STEPS = 10_000_000
 
+# In one sampling interval; beyond it a run ends as `Status.DIVERGED`.
 _MOST_EVENTS = 20_000
 
 
@@ -97,12 +98,14 @@ def row_history(scene: Scene, row: BlockRow) -> Floats:
     samples = np.full((len(row.mus), scene.ax_mps2.size), np.nan)
     result = _run(scene, row, samples)
     if math.isnan(result.prd_m[0]):
+        # The kernel may have filled some samples before it gave up.
         samples[:] = np.nan
     return samples * math.cos(scene.slope_rad)
 
 
 def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
     """Run a row; `samples`, if given, is filled with s at the samples."""
+    # `or`: the number of steps is computed from values that are known to be valid.
     raise_any(_faults(row) or _too_stiff(scene, row))
     # Rigid links: one block of the mean friction, weighted by the shares; N is the same for all.
     rigid = one_axis.run(replace(scene, friction=coulomb(row.mean_mu)))
@@ -127,8 +130,10 @@ def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
     if not reached or not np.isfinite(peaks).all():
         return _nothing(Status.DIVERGED, row, rigid)
     down, up, end, rate = math.cos(scene.slope_rad) * peaks.T
+    # A single block has no link: `initial` is the largest of none.
     stretch, force = links.max(axis=0, initial=0.0)
     return RowResult(
+        # Exactly zero at rest: the kernel sets a block's rate to zero where it stops.
         status=Status.OK if not rate.any() else Status.SLIDING_AT_END,
         prd_m=_tuple(np.maximum(down, -up)),
         residual_m=_tuple(end),
@@ -188,6 +193,7 @@ def _share_faults(shares: Sequence[float], count: int) -> list[str]:
 
 def minimum_steps(row: BlockRow, seconds: float) -> float:
     """Return a lower bound of the number of steps that a row needs for a motion this long [s]."""
+    # Without links nothing limits the step but the sampling interval.
     if len(row.mus) == 1:
         return 0.0
     # The kernel steps at most 1 / rate: no mode of the chain is faster than 2 sqrt(k / m) or more
