@@ -41,6 +41,7 @@ _LOW, _KNEE, _PLATEAU, _HIGH = 0.1, 1.3, 8.3, 33.3
 N_SETS = 4
 
 # At most 1/24 octave apart, so that both ends of each band are points.
+# Both are a multiple of `N_SETS` and one more, so that one set has both ends.
 N_SLIDING, N_AC156 = 93, 117
 
 # The knee is a point of both bands, once.
@@ -124,6 +125,7 @@ def one_by_one(motions: Sequence[Motion]) -> Sequence[Sequence[Floats]]:
     ]
 
 
+# By the bytes of the record: an array has no hash.
 @lru_cache(_KEPT)
 def spectrum_mps2(record: bytes, dt_s: float) -> Floats:
     """Return a record's spectrum at `POINTS_HZ`, computed once for all that is compared with it."""
@@ -188,6 +190,7 @@ def _least(
     *,
     provision: Provision = MOTIONS,
 ) -> Limit:
+    # Of equal ratios the first name, so that the row is the same every time.
     lowest, worst = min(ratio.minimum(points) for ratio in ratios)
     return Limit(
         title=title,
@@ -293,6 +296,7 @@ def acceptance(
 
 def motion_strength(motion: Motion, hold_s: float) -> MotionStrength:
     """Measure the strong motion and the correlations of a motion as run."""
+    # As scaled: the scale changes no duration or correlation, but the Arias intensity.
     records = {
         name: Record(name=name, dt_s=motion.dt_s, a_mps2=motion.scaled(a))
         for name, a in motion.components.items()

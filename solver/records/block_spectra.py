@@ -20,6 +20,7 @@ _BLOCK = 32
 
 def together(motions: Sequence[Motion], periods_s: Floats) -> list[list[Floats]]:
     """Return the spectra [m/s2] of the components of each motion, before its scale."""
+    # Records of one step and length have the same matrices, and go through them together.
     alike: dict[tuple[float, int], list[Floats]] = {}
     for motion in motions:
         for a in motion.components.values():
@@ -49,6 +50,7 @@ def spectra(a_mps2: Floats, dt_s: float, periods_s: Floats) -> Floats:
         responses = _responses(radians, step_count)
         states = _states(responses[:, -1], inputs[2:])
         for column, p, response, state in zip(some, radians, responses, states, strict=True):
+            # The states at the starts of all blocks are known now, so each block is by itself.
             inputs[:2] = state
             ordinates[:, column] = _peaks(response, p, inputs, last_steps * step_count, largest)
     return ordinates
@@ -60,9 +62,11 @@ def _inputs(a: Floats) -> tuple[Floats, int]:
     Two rows for the state at its start, still zero, its samples, and the first of the next block.
     """
     records, samples = a.shape
+    # Blocks share a sample: the last one of a block is the first of the next.
     count = max(math.ceil((samples - 1) / _BLOCK), 1)
     padded = np.zeros((records, count * _BLOCK + 1))
     padded[:, :samples] = a
+    # A view of every 32nd window: no sample is copied here.
     blocks = np.lib.stride_tricks.sliding_window_view(padded, _BLOCK + 1, axis=1)[:, ::_BLOCK]
     inputs = np.zeros((_BLOCK + 3, records, count))
     inputs[2:] = blocks.transpose(2, 0, 1)
@@ -76,10 +80,13 @@ def _responses(p: Floats, steps: int) -> Floats:
     """
     free, from_start, from_end = _step(p)
     made = np.zeros((p.size, 1 + steps * _BLOCK, 2, _BLOCK + 3))
+    # The oscillator is linear: its response is the sum of those to each input of size 1.
     made[:, 0, 0, 0] = made[:, 0, 1, 1] = 1.0
     for i in range(steps * _BLOCK):
         made[:, i + 1] = free @ made[:, i]
         first = 2 + i // steps
+        # Within an interval the record is linear: a step has shares of the samples before and after
+        # it.
         start, end = (i % steps) / steps, (i % steps + 1) / steps
         made[:, i + 1, :, first] += (1.0 - start) * from_start + (1.0 - end) * from_end
         made[:, i + 1, :, first + 1] += start * from_start + end * from_end
@@ -95,6 +102,7 @@ def _step(p: Floats) -> tuple[Floats, Floats, Floats]:
     h, once, twice = np.zeros((3, p.size))
     zeta = DAMPING
     term, ahead, power = 0.0, 1.0, np.ones(p.size)
+    # As many terms as the kernel takes: below one radian the last is below 2e-24 of the first.
     for k in range(24):
         h += term * power
         once += term * power * p / (k + 1)
@@ -115,6 +123,7 @@ def _states(end: Floats, samples: Floats) -> Floats:
     """Return y and z at the start of each block, from rest, shape (m, 2, c, b)."""
     forced = np.tensordot(end[:, :, 2:], samples, 1)
     states = np.zeros_like(forced)
+    # The only loop over time: one product for each block of 32 samples.
     for b in range(samples.shape[2] - 1):
         states[..., b + 1] = end[:, :, :2] @ states[..., b] + forced[..., b]
     return states
@@ -127,10 +136,13 @@ def _peaks(response: Floats, p: float, inputs: Floats, last_steps: int, largest:
     y = np.tensordot(response[stride::stride, 0], inputs, 1)
     # The last block is filled up with zeros: what moves after the end of the record does not count.
     y[last_steps // stride :, :, -1] = 0.0
+    # The state at its start is a point of the block as well, which the strides leave out.
     highest = np.maximum(np.abs(y, out=y).max(0), np.abs(inputs[0]))
     peaks: Floats = highest.max(1)
     # From one of these to the next the response bends by y'' = -y - 2 zeta y' - a, and so do the
     # cubics through its steps: only blocks as near to the peak as that are looked at closely.
+    # Between two points h apart a curve exceeds both by h^2 max |y''| / 8 at most; 0.25 is twice
+    # that, for 2 zeta y' is not in the sum.
     bend = 0.25 * (stride * p) ** 2 * (peaks + largest)
     near = highest >= (peaks - bend)[:, None]
     # The strides may miss the end of the record within the last block.

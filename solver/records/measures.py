@@ -68,6 +68,7 @@ def strength(record: Record) -> Strength:
 
 def correlation(record: Record, second: Record) -> float:
     """Correlation coefficient of two records of equal step and length; 0 if either is constant."""
+    # At zero lag: neither record is shifted against the other.
     a, b = record.a_mps2 - record.a_mps2.mean(), second.a_mps2 - second.a_mps2.mean()
     product = math.sqrt(float(a @ a) * float(b @ b))
     return float(a @ b) / product if product > 0.0 else 0.0

@@ -213,6 +213,7 @@ def _resampled(a: Floats, dt_s: float, new_s: float) -> Floats:
     ratio = new_s / dt_s
     if new_s == 0.0 or _is_near(ratio, 1.0):
         return a
+    # The allowance is for a quotient that rounding puts just below a whole number.
     count = math.floor((len(a) - 1) / ratio + 1e-6) + 1
     if ratio > 1.0:
         finer = _finer(ratio)
@@ -233,6 +234,7 @@ def _without_aliases(a: Floats, ratio: float, finer: int) -> Floats:
     cycles = ratio * _frequencies(len(wide), 1.0)
     part = np.clip((2.0 * cycles - _PASSED) / (1.0 - _PASSED), 0.0, 1.0)
     spectrum = np.fft.rfft(wide) * (0.5 + 0.5 * np.cos(math.pi * part))
+    # Zeros above the spectrum draw the same curve at more points; `irfft` divides by their number.
     drawn = finer * np.fft.irfft(spectrum, finer * len(wide))
     return np.asarray(drawn[finer * pad : finer * (pad + len(a) - 1) + 1])
 
@@ -310,6 +312,7 @@ def _record_problems(record: Record, processing: Processing) -> list[str]:
     problems = []
     length_s = (len(record.a_mps2) - 1) * record.dt_s
     start, stop = _bounds(record, processing)
+    # A polynomial of degree n fits n + 1 samples exactly: nothing would be left of them.
     if stop - start < max(2, processing.baseline + 2):
         problems.append(
             f"cut from {processing.from_s:g} s to {processing.to_s:g} s leaves "

@@ -141,6 +141,7 @@ def response_spectrum(
     for step_count in np.unique(steps[~rigid]).tolist():
         some = ~rigid & (steps == step_count)
         peak, peak_index = np.empty(some.sum()), np.empty(some.sum(), dtype=np.int64)
+        # Linear between samples, as the record is: a finer record is the same motion.
         fine = read_only(refined(a, step_count))
         oscillator.peaks(fine, dt_s / step_count, omega[some], float(damping), peak, peak_index)
         spectrum[some] = np.abs(peak)
@@ -271,6 +272,7 @@ def factor_to_target(
             f"period range is {shortest_s:g} s to {longest_s:g} s; enter two periods above 0, the "
             f"second longer"
         )
+    # Equally spaced in the logarithm, as the mean of logarithms weighs them.
     count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
     periods = np.geomspace(shortest_s, longest_s, max(count, 2))
     logs = []
@@ -279,6 +281,7 @@ def factor_to_target(
         if not record.a_mps2.any():
             raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a target")
         spectrum = response_spectrum(record.a_mps2, record.dt_s, periods, DAMPING)
+        # Their mean over two components is the logarithm of the geometric mean.
         logs.append(np.log(spectrum / UNITS["g"]))
     # Least squares of ln(factor spectrum / target): the factor is the mean of the logarithms.
     difference = np.log(target(1.0 / periods)) - np.mean(logs, axis=0)

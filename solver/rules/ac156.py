@@ -26,6 +26,7 @@ Target = tuple[Floats, Floats]
 def target_sa_g(target: Target, freq_hz: Floats) -> Floats:
     """Target acceleration [g] at frequencies [Hz]: log-log between corners, constant beyond."""
     corners_hz, corners_g = (np.log(np.asarray(column)) for column in target)
+    # `interp` is constant beyond its ends, as the spectrum is below 0.1 Hz and above 33.3 Hz.
     return np.asarray(np.exp(np.interp(np.log(freq_hz), corners_hz, corners_g)), dtype=np.float64)
 
 
@@ -115,6 +116,7 @@ def ac156_horizontal(
     """
     # The cap of 1.6 S_DS is on A_FLX alone: at the roof A_RIG keeps the whole ratio.
     ratio = edition.amplification.at(z_over_h)
+    # 0.4 S_DS is the ordinate of the design spectrum at zero period.
     return _corners(min(ratio, 1.6) * s_ds_g, 0.4 * ratio * s_ds_g, tail)
 
 

@@ -119,6 +119,7 @@ def analysis_value(
         mean_m=mean,
         largest_m=largest,
         basis=basis_used,
+        # The factor of the basis that was asked for, even if there are too few motions for it.
         factor=_factor(rules, basis or basis_used),
         value_m=factored(rules, basis_used, mean, largest),
     )
@@ -226,6 +227,7 @@ def parapet_qualifies(rules: RuleSet, *, parapet_height_m: float, cg_height_m: f
 def interconnection_strength_n(rules: RuleSet, *, s_ds_g: float, w1_n: float) -> float:
     """Return the interconnection strength [N] for a part of weight w1_n on its lighter side."""
     # 0.133 S_DS W1, and 0.1 W1 or more, in all rule sets.
+    # Equal at S_DS = 0.752: below that 0.1 governs.
     return max(rules["interconnection_sds"] * s_ds_g, rules["interconnection_min"]) * w1_n
 
 
@@ -267,6 +269,7 @@ def array_checks(
         _check(
             rules,
             "Roof slope, any ballasted system",
+            # The sign of a slope says only which way the record's axis points.
             math.degrees(abs(slope_rad)),
             "ibc_max_slope_deg",
             measure=Measure.ANGLE_DEG,

@@ -163,6 +163,7 @@ class RuleSet:
             raise InputError(outside)
         values = dict(self.values)
         for key, (value, reason) in changes.items():
+            # The clause stays: a package prints what was overridden, with the reason.
             values[key] = replace(values[key], value=value, reason=reason)
         return replace(self, values=values)
 
@@ -195,6 +196,7 @@ def _table(
         )
         for key, (value, confidence, clause) in rows.items()
     }
+    # The cap of the IBC is in every rule set, because it holds for every ballasted system.
     return table | _IBC
 
 
