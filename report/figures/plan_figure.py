@@ -204,6 +204,8 @@ def _slope(axes: Axes, roof: _Roof, array: Array) -> None:
 def _free_body(axes: Axes, roof: _Roof) -> None:
     _line(axes, roof.at(0.0, 0.0), roof.at(2.0, 0.0), color=GRAY, linewidth=1.4)
     _block(axes, roof, (0.45, 1.55), (0.0, 0.42), facecolor="#eef2f7")
+    # Seen from the roof: its acceleration acts as -m a at the center of gravity (d'Alembert), and
+    # N and the friction where the supports are.
     center = roof.at(1.0, 0.24)
     _center(axes, center)
     _arrow(axes, center, (center[0], center[1] - 0.72))

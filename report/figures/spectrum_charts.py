@@ -79,6 +79,7 @@ def _ordinates(axes: Axes, part: Spectra) -> None:
     axes.plot(
         part.periods_s, part.target_g, color=INK, linewidth=1.4, linestyle=_DASHES, label="target"
     )
+    # Every third of 1, 2, 5, 10 and so on is a power of ten.
     _label(axes.yaxis, _LEVELS if high < 30.0 * low else _LEVELS[::3])
     axes.set_title(f"{part.title} [g]", loc="left", weight="semibold", pad=3)
 

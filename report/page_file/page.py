@@ -106,6 +106,7 @@ def _script(name: str) -> str:
         body = _IMPORT.sub(lambda found: _taken(*found.groups()), text)
         # One classic script: a page opened as a file may not import modules from files.
         body = re.sub(r"^export ", "", body, flags=re.MULTILINE)
+        # Those that it imports are there by now: each function runs where it stands.
         modules[name] = f'modules["{name}"] = (() => {{\n{body}return {{ {names} }};\n}})();\n'
 
     add(name)
@@ -152,6 +153,7 @@ def _shade(assessment: Assessment, array_id: str) -> str:
 
 def _sections(package: str, shades: Mapping[str, str]) -> list[FileSection]:
     """Return the sections of the file, for a screen."""
+    # The HTML of a package is well-formed XML: `lay_out` refuses any other.
     tree = ElementTree.fromstring(package)
     numbered = [heading for heading in tree.iter() if heading.find("span[@class='no']") is not None]
     numbers = {heading.get("id", ""): heading[0].text or "" for heading in numbered}

@@ -118,6 +118,7 @@ def _smallest_words(margins: Sequence[Margin]) -> str:
         return ""
     if all(margin.is_beyond for margin in margins):
         return "With half of the entered friction, all satisfied clearances remain satisfied."
+    # The more of the friction is needed, the smaller the margin.
     smallest = max(margins, key=_share)
     law, percent_less = smallest.array.array.friction, 100.0 * (1.0 - _share(smallest))
     of = f"μ of {smallest.array.id}"
@@ -128,6 +129,7 @@ def _smallest_words(margins: Sequence[Margin]) -> str:
         )
     else:
         at = " at low velocity" if law.is_by_velocity else ""
+        # The search is in hundredths: its first step down fails.
         remains = f"It is no longer satisfied with {of}, {mu_words(law)}, reduced by 0.01{at}."
     return (
         f"The smallest friction margin is at clearance No. {smallest.number}, "

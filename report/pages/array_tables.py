@@ -114,6 +114,7 @@ def schedule(package: PackageData) -> Table:
         (plain("Slope", 2, "deg", 0.8), lambda item: math.degrees(item.array.slope_rad)),
         (text("μ", share=1.2 * package.mu_share), lambda item: mu_words(item.array.friction)),
         (weight("Weight W"), lambda item: item.array.weight_n),
+        # NaN, printed as none, unless its procedure is permitted: nothing else may be built by.
         (required("Design displ.", 0.9), lambda item: item.permitted_m, package.marks.design),
         (text("Keep clear", share=1.4), lambda item: _keep_clear(done, item)),
         (weight("Interconnection", show=no_less), lambda item: item.interconnection_n,
@@ -147,6 +148,7 @@ def _seaoc(package: PackageData) -> tuple[Column, ...]:
 def models_used(item: ArrayAssessment) -> str:
     """Return the numbers of the models that the runs of an array use; nothing without runs."""
     models = sorted({int(run.solution.model) for run in item.runs})
+    # Once where the first and the last are the same.
     return " to ".join(map(str, dict.fromkeys((*models[:1], *models[-1:]))))
 
 

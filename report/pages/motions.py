@@ -204,6 +204,7 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Ma
 
 
 def _peak_g(motion: Motion, a_mps2: Floats) -> float:
+    # As run, with its scale: the file has another peak.
     return float(np.abs(motion.scaled(a_mps2)).max() / G_MPS2) if len(a_mps2) else math.nan
 
 

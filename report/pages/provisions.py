@@ -37,6 +37,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     middle = (len(named) + 1) // 2
     halves = named[:middle], named[middle:]
     overrides = [
+        # Both marks: no adopted document has the value of an override.
         (_sentence_case(ALLOWED[row.provision].meaning), f"{row.value:.6g}†‡", row.reason)
         for row in data.overrides
     ]

@@ -62,6 +62,7 @@ def suite_components(
             "xyz", motion.components, motion.seeds, _PAIRS, motion.correlations, strict=True
         ):
             component = SuiteComponent(
+                # Two digits do: --count ends at 99.
                 motion=f"motion-{number:02d}",
                 component=name,
                 seed=seed,

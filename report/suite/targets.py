@@ -21,6 +21,7 @@ from solver.rules.rulesets import RULE_SETS
 # Rule sets by their names on the command line.
 CODES = {rules.code: rules.name for rules in RULE_SETS.values()}
 
+# As of the Site worksheet (`Site.s_ds_g`).
 _MAX_S_DS_G = 5.0
 
 # Records are written to 0.00001 g: 0.25 % of the smallest peak below.
