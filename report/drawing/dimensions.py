@@ -1,5 +1,7 @@
 """The clearances of a plan, numbered in their gaps, and equal ones dimensioned once.
 
+    [ A1 ]<--(3)-->[ RTU-1 ]    3: the row of the schedule
+
 Required separations are in a table beside the plan. Read `draw_numbers` first.
 """
 

@@ -186,6 +186,7 @@ def _large(sheet: str, wide: float, tall: float) -> tuple[PlanSize, ...]:
 
 
 # A sheet less what a heading and the legend take, and on a large one notes and the title block.
+# The widths are those within the margins of `package.css`: 8.5 in less 2 x 0.75 in.
 LETTER = PlanSize(wide=7.0, tall=7.9, is_full=True)
 A4 = PlanSize(wide=7.0, tall=8.5, is_full=True)
 TABLOID, A3 = _large("tabloid", 15.8, 7.1), _large("a3", 15.3, 7.8)

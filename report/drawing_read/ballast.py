@@ -1,5 +1,9 @@
 """A ballast map: how many blocks lie where, and what each array carries by it.
 
+    x,y,blocks      on an array from x 20 to 25 and y 15 to 35 ft, with the middle at 22.5, 25:
+    22.5,18,2       three blocks, with their center at 22.5, 22 ft
+    22.5,30,1
+
 Knows no workbook (`report.drawing_read.fill`). Read `read_map`, then `loads`.
 """
 

@@ -1,4 +1,7 @@
-"""Outlines in plan, turned, along their own axes, and as rectangles where they are some."""
+"""Outlines in plan, turned, along their own axes, and as rectangles where they are some.
+
+A rectangle of 30 by 10 m, turned by 30 deg, has these sides along its own axes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""What the name of a layer says of what is drawn on it."""
+"""What the name of a layer says of what is drawn on it.
+
+`PV_MODULES` has arrays, `M-HVAC-RTU` fixed objects, `A-ANNO-DIMS` nothing that is read; of `0`
+nobody knows.
+"""
 
 from __future__ import annotations
 

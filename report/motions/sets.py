@@ -1,5 +1,7 @@
 """Which records of a folder are the two horizontal components and the vertical of one motion.
 
+RM1-x.csv, RM1-y.csv and RM1-z.csv are the motion RM1.
+
 Told by the heading of a channel or the end of its file's name, by time step, length and start time;
 what is not clear is left out with the reason, never guessed. Read `sets_of`.
 """

@@ -35,6 +35,7 @@ DEMANDS: Mapping[Intensity, tuple[str, str, str]] = {
     ),
 }
 
+# LS1 to LS4, as the library of FEMA P-58 has them for pelicun.
 MOST_STATES = 4
 # The readers of a library pass over `Comments` and `Description`.
 _OF_ARRAY = (

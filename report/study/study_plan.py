@@ -1,5 +1,7 @@
 """From the sheet to the runs: which cases belong to curves, fragilities and exceedances.
 
+Slopes 0 to 7 by 1, friction 0.3 to 0.8 by 0.05 and 20 intensities are 1,760 cases of the curves.
+
 Runs nothing. Read `plan_study`.
 """
 

@@ -1,5 +1,9 @@
 """User-defined target spectra: a workbook sheet or CSV file, read into corner points.
 
+    period [s], horizontal [g]
+    0.03, 1.2
+    0.12, 1.6
+
 Independent of code rules; `report.project.read.archive` checks the workbook. Read `read_target`.
 """
 

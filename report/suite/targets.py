@@ -1,4 +1,7 @@
-"""Targets of a generated suite: by code, by table, or by the site of a workbook."""
+"""Targets of a generated suite: by code, by table, or by the site of a workbook.
+
+With S_DS = 1.0 g at the roof, by ASCE 7-16: A_FLX 1.6 g and A_RIG 1.2 g.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,7 @@
 """Amounts: what is found beside what is required of it, rounded as they are everywhere.
 
+36.02 in required of 36.0 in provided print as 36.1 and 36.0: what is not met never reads as met.
+
 What is required and a demand are rounded up, what is provided and a capacity down. Read `Amount`.
 """
 

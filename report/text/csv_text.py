@@ -1,4 +1,7 @@
-"""Rows as CSV that no spreadsheet computes."""
+"""Rows as CSV that no spreadsheet computes.
+
+`=2+3` is written as `'=2+3`, and -0.5, which is a number, as it is.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Letters that somebody typed: those that are not seen, or only look like Latin ones."""
+"""Letters that somebody typed: those that are not seen, or only look like Latin ones.
+
+`А1` with a Cyrillic А looks like `A1`, and would be another array.
+"""
 
 from __future__ import annotations
 

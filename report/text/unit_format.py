@@ -1,4 +1,7 @@
-"""Values in SI as they are printed, the preferred system of units first. Read `UnitFormat`."""
+"""Values in SI as they are printed, the preferred system of units first.
+
+1.0363 m is 40.8 in (1036 mm); as a demand, rounded up, 40.8 in (1037 mm). Read `UnitFormat`.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,7 @@
 """The letters of the fonts of a package: which can be drawn, and how wide a text is.
 
+Of `A1 屋` the last letter is in no font of a package; `A1 μ` has all of its letters.
+
 Knows no page. Read `undrawable` first.
 """
 

@@ -1,5 +1,8 @@
 """The routes to a design displacement, and the limits on them, which follow from the input alone.
 
+By PV1-2012 a roof of 3.5 deg is too steep for the prescriptive displacement (3 deg), and not for an
+analysis (7 deg).
+
 Knows no run and loads no compiled solver. Read `limits_of`, then `report.assessment.design.arrays`.
 """
 
