@@ -61,6 +61,8 @@ def magnitudes(table: Floats, columns: Sequence[int], named: Sequence[int]) -> l
 def widening(values: Floats) -> bool:
     """Whether values rise by ever wider steps, as periods and intensities do, and no times."""
     steps = np.diff(values)
+    # Times that are even up to a gap have a first half of equal steps, which no table of periods
+    # has.
     first, last = np.array_split(steps, 2)
     return bool(steps.min() > 0.0 and last.mean() > _WIDER * first.mean() and np.ptp(first) > 0.0)
 
@@ -72,6 +74,7 @@ def counting(table: Floats) -> list[int]:
 
 def pairs(values: Floats, per_line: int) -> Floats | None:
     """Times and values, shape (n, 2), where nearly every second value across lines rises evenly."""
+    # Two numbers a line are two columns already.
     if per_line < 4 or per_line % 2 or values.size % 2 or values.size < 2 * _MANY:
         return None
     table = values.reshape(-1, 2)
@@ -95,6 +98,8 @@ def remedy(table: Floats) -> str:
         deletion = f"column {which} contains line numbers: delete it"
         if len(counts) > 1:
             deletion = f"columns {which} contain line numbers: delete them"
+        # What is advised must do: the rest of the table is judged as it will be without that
+        # column.
         remaining = np.delete(table, counts, axis=1)
         then = remedy(remaining) if remaining.shape[1] > 1 else "enter the time step dt"
         return f"{deletion}; then {then}"

@@ -60,6 +60,7 @@ class FieldFormat:
 
     def lines(self, count: int) -> int:
         """Number of lines for `count` values."""
+        # Rounded up: the last line may be short.
         return -(-count // self.per_line)
 
     def fields(self, line: str) -> int:
@@ -183,6 +184,7 @@ def header_values(source: Source, first: int, count: int, layout: FieldFormat) -
     """Values of a header; NaN if a field is blank, missing or not a number: many are unused."""
     values: list[Stated] = []
     for index in range(first, first + layout.lines(count)):
+        # A line may end where its last fields are blank.
         fields = _cut(source.line(index)[: layout.whole].ljust(layout.whole), layout)
         values += [printed(field.translate(_FORTRAN), index) for field in fields]
     return values[:count]
@@ -218,6 +220,7 @@ def dated_table(source: Source, rows: Sequence[tuple[int, list[str]]], width: in
 
 def separated(text: str) -> list[str]:
     """Fields between blanks, between commas beside points, or before a sign that fills a field."""
+    # A comma beside points separates; alone it may be a decimal comma, and is left to be refused.
     if "," in text and "." in text:
         text = text.replace(",", " ")
     return _TOUCHING.sub(" ", text).split()
@@ -237,6 +240,7 @@ def printed(text: str, index: int) -> Stated:
     mantissa, _, exponent = text.strip().lower().partition("e")
     decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
     # A whole number is taken as exact.
+    # Beyond 300 decimals the power of ten is no float.
     rounding = 0.5 * 10.0**-decimals if "." in mantissa and abs(decimals) < 300 else 0.0
     return Stated(value=float(text), rounding=rounding, index=index)
 
@@ -291,6 +295,7 @@ def _values(
 ) -> Floats:
     """Values of the fields of rows; the problems are looked for where one may be no number."""
     try:
+        # Field by field, without a list of them: a file may have 64 MB.
         fields = chain.from_iterable(split(row.translate(_FORTRAN)) for row in rows)
         values = np.fromiter(map(float, fields), np.float64)
     except ValueError:
@@ -303,6 +308,7 @@ def _values(
 
 
 def _problem(field: str) -> str:
+    # With the D of the file in the message, not the E by which it is read.
     return field_problem(field) if field_problem(field.translate(_FORTRAN)) else ""
 
 
@@ -340,6 +346,7 @@ def _wrong_count(source: Source, block: Block, count: int) -> str:
 
 def _check_no_more(source: Source, block: Block, last: int) -> None:
     """Raise if another line of numbers follows the stated ones."""
+    # Blank lines may follow the values; another line of numbers means that the count is wrong.
     following = source.lines[last : block.stop]
     if _NUMBERS.fullmatch(next((line for line in following if line.strip()), "")):
         raise InputError(

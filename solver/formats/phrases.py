@@ -79,6 +79,8 @@ _STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;()\[\]]+)", re.IGNORECASE)
 
 # Also `0,005`, and `1/200` of a second.
+# Possessive, as ++ and *+ here and below: a match never goes back, and its time grows as the text
+# does, which `tests/test_patterns.py` holds for every pattern.
 _VALUE = r"([+-]?(?:\d++(?:\.\d*+|,\d++)?+|\.\d++)(?:[eE][+-]?\d++)?(?:/\d++)?)"
 _HERTZ = r"(k?hz|sps|samples?(?: per |/)s(?:ec|econd)?)\b"
 _RATE = re.compile(
@@ -102,6 +104,7 @@ _FACTOR = re.compile(
 _GROUPED = re.compile(r"[1-9]\d{0,2},\d{3}", re.ASCII)  # one, or a thousand
 _COUNT = re.compile(
     r"\b(?:(?:number|no\.?) of (?:data )?(?:points|samples|values)|npts)\b"
+    # Not the 4 of 4,000.
     r"\s*+(?:[:=]\s*)?(\d{1,9})\b(?![.,]\d)",
     re.ASCII | re.IGNORECASE,
 )
@@ -296,6 +299,7 @@ def steps_in(source: Source, index: int, line: str) -> list[Stated]:
         return steps
     before, after = (match[1] or match[2] or "").lower(), match[5].lower()
     unit = before or after
+    # A step of 5000 in microseconds must not be read as 5000 s.
     if unit in OTHER_TIMES:
         raise InputError(f"{source.at(index)}: found a step in {unit}; enter it in s, ms or min")
     # Behind the number may be another word; before it, or without a sign, it must be a time.

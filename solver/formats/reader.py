@@ -1,5 +1,8 @@
 """Finds the format of a file by its content, and reads it.
 
+`NPTS=  4000, DT=   .0100 SEC` near the top makes a file one of PEER, whatever its name; a file that
+no other format takes is text.
+
 Contains the list of formats and their order. Read `read_motion_file` first.
 """
 
@@ -27,6 +30,7 @@ class Format(Protocol):
         """Read all channels; raises `InputError` with every problem."""
 
 
+# By name: the core does not import its extras, and each format of a network is one.
 FORMATS: tuple[Format, ...] = (*import_module("solver.formats.networks").NETWORKS, text)
 """All formats, asked in this order: text, which accepts every file, last."""
 
@@ -81,7 +85,9 @@ def read_motion_file(
     source = open_source(
         Path(path), units=units, dt_s=dt_s, values_per_line=values_per_line, response=str(response)
     )
+    # There is always one: text, the last, takes every file.
     reader = next(form for form in FORMATS if form.recognizes(source))
+    # A package attaches and hashes what was read, whatever the file holds by then.
     return replace(reader.read(source), content=source.content)
 
 

@@ -1,5 +1,7 @@
 """The lines of a file with the units and step given by the caller, checked against each other.
 
+A file in gal that the caller says is in g is refused; one without a unit is in that of the caller.
+
 Sets the limits on files from unknown sources; reads no format. Read `open_source` first.
 """
 
@@ -29,6 +31,7 @@ def waveform_format(data: bytes) -> str:
     if _MINISEED.match(data):
         return "MSEED"
     heading = data[_SAC_VERSION_AT : _SAC_VERSION_AT + 4]
+    # SAC is written in the byte order of the machine that wrote it.
     versions = [int.from_bytes(heading, order) for order in ("little", "big")]
     is_sac = len(data) > _SAC_HEADING and not _SAC_VERSIONS.isdisjoint(versions)
     return "SAC" if is_sac else ""
@@ -199,6 +202,7 @@ def open_source(
         problems.append(
             f"{name}: time step dt is {quoted(dt_s)}; enter a number of seconds above 0"
         )
+    # Not isinstance: True is an int, and would be one value a line.
     if type(values_per_line) is not int or values_per_line < 0:
         problems.append(f"{name}: values per line is {quoted(values_per_line)}; enter 1, 2, ...")
     if units and response:
@@ -228,6 +232,7 @@ def _bytes(path: Path) -> bytes:
     name = _name(path)
     try:
         if not path.exists():
+            # Windows says of a path that is too long only that it is not there.
             check_length(path)
             raise InputError(f"{name}: no such file; {meant(path) or 'use the path of a record'}")
     except OSError as error:
@@ -236,9 +241,11 @@ def _bytes(path: Path) -> bytes:
 
 
 def _lines(name: str, data: bytes) -> list[str]:
+    # The minus sign of typesetting, as web pages and word processors write it.
     text = _decode(name, data).replace("\u2212", "-")
     if "\r" in text:
         text = _LINE_END.sub("\n", text)
+    # Counted before the text is split: a list of many millions of lines would fill the memory.
     count = text.count("\n") + 1
     if count > MAX_LINES:
         raise InputError(f"{name}: found {count:,} lines; enter at most {MAX_LINES:,}")
@@ -262,9 +269,12 @@ def _decode(name: str, data: bytes) -> str:
             return data.decode("utf-16")
         plain = data.rstrip(b"\x00" + _END_OF_TEXT)
         if not _CONTROL.search(plain) and (plain or not data.startswith(b"\x00")):
+            # With or without the mark of byte order that programs of Windows write.
             return plain.decode("utf-8-sig")
     except UnicodeDecodeError:
         data = data.rstrip(_END_OF_TEXT)
         if not _CONTROL.search(data):
+            # It has a character for each byte, so this never fails; only letters of headings may be
+            # others.
             return data.decode("latin-1")
     raise InputError(f"{name}: not a text file; {likely_bytes(data) or 'use text or CSV'}")

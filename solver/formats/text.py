@@ -1,5 +1,7 @@
 """Text and csv: one column (acceleration), or times and one or more columns.
 
+`time_s,acc_g` above `0.00,0.1` and `0.01,-0.2` heads two samples in g at a step of 0.01 s.
+
 Handles this format only: `solver.formats.headings` finds rows and what is said of them,
 `solver.formats.columns` what their numbers show, `solver.formats.times` times. Read `read` first.
 """
@@ -90,6 +92,7 @@ def read(source: Source) -> MotionFile:
     several = len(taken) > 1
     channels = [
         Record(
+            # A single component has the name of its file, not one such as acc_g.
             name=layout.headings[i].name if several else "",
             dt_s=dt_s,
             a_mps2=values * layout.scale(i),
@@ -107,6 +110,7 @@ def read(source: Source) -> MotionFile:
             " samples are missing"
         )
     file = motion_file(source, "text", channels, notes)
+    # Written by `motion suite` into its records (`record_csv`): only a generated motion states it.
     hold = next(filter(None, (_HOLD.search(line) for _, line in layout.remarks)), None)
     return replace(file, hold_s=float(hold[1])) if hold else file
 
@@ -143,6 +147,7 @@ def _read_fast(layout: Layout) -> Floats | None:
         table: Floats = np.loadtxt(lines, delimiter=layout.separator, ndmin=2)
     except ValueError:
         return None
+    # NaN fails the comparison, too, so that such a file is read again to name its lines.
     return table if table.shape[1] == layout.width and (np.abs(table) < BEYOND).all() else None
 
 
@@ -178,6 +183,7 @@ def _shaped(layout: Layout) -> Floats | None:
     is_headed = bool(heading) and len(phrases.words(heading, layout.separator)) == width
     if len(widths_below) < 2:
         return None
+    # The last line across may be short; all between the first and the last are of one width.
     *middle, (last, last_width) = widths_below
     widths = {numbers for _, numbers in middle}
     if not is_headed and widths == {width} and last_width < width:
@@ -226,6 +232,7 @@ def _check_count(layout: Layout, table: Floats) -> None:
     """Compare the number of rows with the number of samples that a remark states."""
     samples = len(table)
     # Of pairs, times may be counted as well.
+    # -1 is that of a line that states none.
     counts = {-1, samples, table.size if _pairs_in_line(layout, table) else samples}
     for index, line in layout.remarks:
         stated = phrases.count_in(line)
@@ -299,6 +306,7 @@ def _has_times(layout: Layout, table: Floats) -> bool:
     kinds = [heading.kind for heading in layout.headings]
     if Kind.TIME in kinds[1:]:
         place = kinds.index(Kind.TIME, 1) + 1
+        # Two tables that were pasted side by side have their times twice.
         if kinds[0] is Kind.TIME and np.array_equal(table[:, 0], table[:, place - 1]):
             raise InputError(
                 f"{layout.source.name}: found times in columns 1 and {place}: {SIDE_BY_SIDE}"
@@ -332,6 +340,7 @@ def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
     t_s = unit_s * table[:, 0]
 
     def line_of(row: int) -> int:
+        # Searched from the top each time: it is asked for the lines of messages alone.
         return next(islice(layout.rows(), row // in_line, None))[0]
 
     dt_s, columns, notes = sampled(source, t_s, columns, line_of, unit_s)

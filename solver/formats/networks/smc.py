@@ -128,6 +128,7 @@ def _uneven(source: Source, block: Block, scale: float) -> Record:
             raise InputError(
                 f"{source.at(index)}: found {number} values; enter pairs of time and acceleration"
             )
+        # A line of pairs stands for as many times, so that a message on a time names its line.
         rows += [index] * (number // 2)
     pairs = values.reshape(-1, 2)
     if len(pairs) < 2:
