@@ -225,6 +225,7 @@ def _row_of(change: WorkbookChange, key: str, place: DrawnOutline) -> tuple[int,
     _fill_place(change, key, row, place.name, place.shape, DRAWING)
     values: dict[str, Value] = {} if rows else {"id": place.name}
     values["place_from"] = DRAWN_MODULES if place.modules else DRAWING
+    # The number was counted in an earlier drawing: of one without modules it says nothing.
     if not place.modules and change.cell(key, row, "place_from").shown == DRAWN_MODULES:
         values["modules"] = None
     return row, values
@@ -239,6 +240,7 @@ def _fill_place(
         change.refuse(key, row, taken[0], f"the place of {name}")
     _fill_outline(change, name, shape, source)
     for side, value in zip(SIDES, _sides(shape), strict=True):
+        # A polygon has no sides: those of a rectangle that was there are cleared.
         if value is not None or side in taken:
             number = None if value is None else change.number(key, side, value)
             change.put(key, row, {side: number})

@@ -78,6 +78,7 @@ def joined(
     """
     layers: dict[tuple[LayerKind, str], list[int]] = defaultdict(list)
     for index, line in enumerate(outlines):
+        # What `report` wrote is an array already, however small.
         if line.kind in _KINDS and not line.is_ours:
             layers[line.kind, line.layer.casefold()].append(index)
     arrays: list[DrawnOutline] = []

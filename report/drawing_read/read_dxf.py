@@ -70,6 +70,7 @@ def _read(document: Document, repairs: str, unit_m: float | None) -> RoofDrawing
     unit = UNITS.get(code, "")
     geodata = document.modelspace().get_geodata()
     north_deg = math.nan
+    # GEODATA may have (0, 0) for north, which is no direction.
     if geodata and not (north := geodata.dxf.north_direction.vec2).is_null:
         north_deg = north.angle_deg % 360.0
     # A drawing is read as it is shown: what is hidden is no part of the plan.
@@ -116,6 +117,8 @@ def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str])
         try:
             if name != "Model":
                 reader.take_all(document.paperspace(name))
+        # What lies in layouts is only a hint where model space is empty: too much of it is no
+        # error.
         except InputError:
             return
         # That of `report` has a title block alone.
@@ -198,6 +201,7 @@ class _Reader:
                 reason = self._take_curve(entity, layer, handle, block)
             else:
                 reason = f"a {kind}"
+        # A limit is of the whole drawing, and ends its reading; damage is of one entity.
         except InputError:
             raise
         except Exception as error:  # a damaged drawing makes the library raise almost anything

@@ -84,6 +84,8 @@ def refused(pdf: PdfReader) -> Iterator[str]:
             yield f"{place}: an action (/A)"
         if "/Kids" in item and "/UserUnit" in item:
             yield f"{place}: its sheets are scaled"
+        # Files belong to the document (PDF/A-3): in the catalog, which has /Pages, and nowhere
+        # else.
         if ("/EF" in item and id(item) not in attached) or ("/AF" in item and "/Pages" not in item):
             yield f"{place}: a foreign attachment"
 
@@ -123,6 +125,7 @@ def _dictionaries(pdf: PdfReader) -> Iterator[tuple[str, DictionaryObject]]:
         if count > MOST_OBJECTS:
             raise InputError("has more objects than a package can have")
         if isinstance(item, ArrayObject):
+            # A stack gives back the last first: reversed, items come in the order of the file.
             pending += [(place, below) for below in reversed(list(list.__iter__(item)))]
             continue
         yield place, item

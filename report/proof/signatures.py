@@ -51,6 +51,7 @@ def appended(data: bytes, made: bytes = b"") -> Appended:
     try:
         import pyhanko.sign.validation  # noqa: F401
     except ImportError:
+        # Without the extra, all else is still compared, and the answer says what was not checked.
         return Appended(is_checked=False)
     for name in ("pyhanko", "pyhanko_certvalidator"):
         # They would print that nobody is trusted.
@@ -71,6 +72,7 @@ def _judged(data: bytes, made: bytes) -> Appended:
     for signature in file.embedded_signatures:
         status = _validated(signature)
         stamp = getattr(status, "timestamp_validity", None)
+        # Intact: the digest is that of the bytes; valid: the certificate's key signed that digest.
         if not all(part.intact and part.valid for part in (status, stamp) if part):
             problems.append(
                 f"signature '{signature.field_name}': does not match the bytes that it covers"

@@ -72,6 +72,7 @@ def installed(library: str) -> str:
 def processor() -> str:
     """Return the processor's model name, if the system reports it."""
     try:
+        # Linux alone has this file.
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:
         lines = []

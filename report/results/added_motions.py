@@ -181,6 +181,8 @@ def said_near(folder: Path) -> Iterator[str]:
     for parent in (resolved, *resolved.parents[:2]):
         workbooks += parent.glob("*.xlsx")
     for path in sorted(workbooks):
+        # The suite is written: a workbook beside it that cannot be read is told by the next
+        # `check`.
         with suppress(InputError):
             sheet = read(path)
             sources = () if path.name.endswith(BEFORE) else other_sources(sheet)
@@ -195,6 +197,7 @@ def _source(record: Path) -> str:
         components = chain.from_iterable(motion["components"] for motion in suite["motions"])
         names = {component["file"] for component in components}
         return str(suite["source"]) if record.name in names else ""
+    # A suite.json of another program, or cut off, states no source.
     except (ValueError, KeyError, TypeError):
         return ""
 

@@ -190,6 +190,7 @@ def done_parts(folder: Path, campaign: Campaign, identity: str, key: bytes) -> d
     for number, part in enumerate(campaign.parts):
         try:
             done = _opened((folder / part_name(number)).read_bytes(), key)
+        # Not there, cut off or damaged (ArrowInvalid is a ValueError): its runs are run again.
         except (OSError, ValueError, KeyError, TypeError, NotImplementedError):
             continue
         rows = (part.stop - part.start) * len(campaign.columns)

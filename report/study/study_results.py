@@ -218,6 +218,8 @@ def _fit(plan: StudyPlan, analysis_m: Floats, ppa_g: float) -> Fit | str:
     try:
         return fit_prd(slopes.ravel(), mus.ravel(), levels.ravel(), analysis_m.ravel(), ppa_g=ppa_g)
     except InputError as error:
+        # The formula is for convenience: without it the study is whole, and says why there is
+        # none.
         return error.parts[0].text
 
 

@@ -60,6 +60,7 @@ def _is_on_machine(letter: str) -> bool:
             timeout=10.0,
             check=False,
         )
+    # Without an answer the letter is refused: better than an empty box on a sealed page.
     except (OSError, subprocess.TimeoutExpired):
         return False
     return bool(fonts.stdout.strip())

@@ -32,6 +32,7 @@ def design_envelope(array: ArrayAssessment) -> Outline:
 def runs_envelope(array: ArrayAssessment) -> Outline:
     """Return the outline of an array in all of its runs; empty if one has no displacement."""
     moves = list(chain.from_iterable(map(_region, array.runs)))
+    # Without one of the runs the outline would look complete, and be too small.
     if not moves or any(math.isnan(along + across) for along, across in moves):
         return ()
     downslope = math.radians(array.array.downslope_deg)

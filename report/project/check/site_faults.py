@@ -151,6 +151,7 @@ def _below_table(
     for (name, label), share, words in ((maximum, 1.0, ""), (design, 2.0 / 3.0, "2/3 ")):
         value, least_g = row.get(name), share * tabulated * mapped_g
         if value is not None and value < least_g - AGREES_G:
+            # Rounded up: what is advised must pass as it is printed.
             remedy = (
                 f"enter at least {math.ceil(1e3 * least_g) / 1e3:g} g, which is {words}{factor}"
             )

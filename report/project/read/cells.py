@@ -162,6 +162,7 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, stated: str = "")
         value = int(value) if entry.kind is int and value.is_integer() else value
     if isinstance(value, float):
         value *= si
+    # Not `>`: NaN is refused as well.
     if isinstance(value, float | int) and not abs(value) <= LARGEST:
         raise CellError(_is(cell, entry), f"{remedy}, below {LARGEST:g} in size")
     if not entry.accepts(value):

@@ -134,6 +134,7 @@ def _document(book: OpenBook, entry: Entry, name: str, bytes_left: int) -> Docum
     # holds what was checked.
     content = read_file(file, MAX_DOCUMENTS, f"'{name}'", too_large="shrink it")
     years = _years(name, content) if entry.name == "study_years" else None
+    # By its first bytes: any file may be named .pdf, and a package attaches what it is given.
     if years is None and not content.startswith(b"%PDF-"):
         raise InputError(f"'{name}' is not a PDF; attach it as a PDF")
     if len(content) > bytes_left:

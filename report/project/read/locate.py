@@ -233,6 +233,7 @@ def _next_table(sheet: Worksheet, top: int, columns: Sequence[int]) -> int:
 
 
 def _merged(sheet: Worksheet, top: int, last_row: int, columns: Sequence[int]) -> list[Problem]:
+    # Sorted: they are a set, whose order is another one in each process.
     return [
         merged(sheet.title, area.coord)
         for area in sorted(sheet.merged_cells.ranges, key=str)

@@ -97,6 +97,7 @@ def rise_in(text: str) -> float:
 def dates_in(text: str) -> list[date]:
     """Return the dates that a text may mean: one of `Nov 20, 2026`, two of `3/5/2026`."""
     try:
+        # ISO 8601 first: 2026-11-20 has one meaning.
         return [datetime.fromisoformat(text).date()]
     except ValueError:
         pass

@@ -75,6 +75,7 @@ def write_block(
     """Write a block, with the values that an example has by section, or blank but for defaults."""
     sheet = book[section.sheet]
     top, is_first = _put_section_title(sheet, section)
+    # Of the blocks, Site alone has answers beside its inputs.
     unused = "" if section.key == "site" else "Computed"
     style.put_values(
         sheet, top, [head if head != unused else "" for head in BLOCK_HEADS], are_heads=True

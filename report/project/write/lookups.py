@@ -83,6 +83,7 @@ def _write_coefficients(sheet: Worksheet, row: int, table: CoefficientTable) -> 
     title = f"Site coefficient {table.symbol}, {table.clause}"
     note = f"{_STATUS[table.confidence]}; linear between columns; site-specific where blank"
     # Beyond the table its first and last columns hold.
+    # From the largest down, as the formulas need for MATCH with -1.
     heads: list[style.Value] = [
         f"Site class / {mapped} [g]",
         _ABOVE_ALL_G,

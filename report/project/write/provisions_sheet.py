@@ -102,6 +102,7 @@ def _write_pair(sheet: Worksheet, row: int, count: int, value: str | float, clau
     column = _FIRST + 2 * count
     cell = style.put(sheet, row, column, "", color=style.INK)
     cell.value = value
+    # `put` has made the cell one of text.
     if isinstance(value, float):
         cell.number_format = "0.####"
         cell.data_type = "n"
