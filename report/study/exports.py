@@ -18,7 +18,7 @@ from report.study.study_tables import Row
 from report.study.wording import MASS, context
 from report.text.csv_text import csv_text
 from report.text.letter_case import capitalized
-from report.text.units import digits_down, digits_up, spaced
+from report.text.units import digits_down, digits_up
 from report.typeset.pdf import TEMPLATES
 
 LIBRARY = "fragility.csv"
@@ -106,4 +106,4 @@ def _comments(results: StudyResults, result: ArrayStudyResult) -> str:
         "others": [state.words for state in result.states if not state.fragility.fitted.is_known],
         "MASS": MASS,
     }
-    return spaced(said(TEMPLATES, "study/exports.html", "comments", context(results) | words))
+    return said(TEMPLATES, "study/exports.html", "comments", context(results) | words)

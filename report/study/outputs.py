@@ -14,10 +14,10 @@ from report.document.templates import rendered
 from report.project.read.years_file import YEARS
 from report.results.publish import publish
 from report.study.allowed_answers import allowed
-from report.study.array_page import fragility, sheets, years, years_json
 from report.study.design_curves import curves
 from report.study.exports import LIBRARY, export_files
 from report.study.formula_section import formula
+from report.study.fragility_section import fragility
 from report.study.page_parts import basis, limits
 from report.study.prescribed import compare, prescribed
 from report.study.run_study import RUNS, run_study
@@ -25,6 +25,7 @@ from report.study.study_plan import StudyPlan
 from report.study.study_results import StudyResults
 from report.study.study_tables import curves_csv, study_xlsx
 from report.study.wording import context, headline
+from report.study.years_section import sheets, years, years_json
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.file_checks import check_plain
 from solver.file_writing import add_folder, locked

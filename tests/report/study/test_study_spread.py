@@ -21,9 +21,9 @@ from fixtures.study_workbooks import (
     write,
 )
 from report.study import outputs
-from report.study.array_page import fragility as fragility_page
 from report.study.capacity_runs import spectral_spread
 from report.study.exports import export_files
+from report.study.fragility_section import fragility as fragility_page
 from report.study.run_study import planned, run_study
 from report.study.study_input import StudyArray
 from report.study.study_plan import FRICTION, SLOPE, ArrayPlan
