@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import click
-
-from report.cli.console import plain, say_next
+from report.cli.console import say, say_next
 from report.cli.input_errors import input_errors
 from report.drawing_read.ballast import Load, center_of_gravity, loads, read_map
 from report.drawing_read.fill import fill_ballast as write_ballast
@@ -55,11 +53,11 @@ def fill_ballast(
                 weight_text = pair(row["ballast_n"], Quantity.WEIGHT, is_us)
                 fate = "was deleted" if replace else "is kept; use --replace to delete it"
                 text += f"; the entered weight, {weight_text}, {fate}"
-        click.echo(plain(f"{name}: {text}"))
+        say(f"{name}: {text}")
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
-        click.echo(f"outside all arrays: {lines}")
-    click.echo(f"{sheet.path}: ballast weights filled in: {change.areas}")
+        say(f"outside all arrays: {lines}")
+    say(sheet.path, f": ballast weights filled in: {change.areas}")
     say_next(project, change.has_formulas)
 
 

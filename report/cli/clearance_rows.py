@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-import click
-
 from report.assessment.assess import assess
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.plan.missing_rows import missing_rows, without_clearances
-from report.cli.console import plain, say_next
+from report.cli.console import say, say_next
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
 from report.motions.prepare import prepare
@@ -24,9 +22,9 @@ def fill_clearances(project: Path) -> None:
     with input_errors(project), changing(project) as change:
         lines = [*add_clearances(change), *withdrawn(change)]
     for line in lines:
-        click.echo(plain(line))
+        say(line)
     if change.written:
-        click.echo(plain(f"{change.book.path}: written: {change.areas}"))
+        say(change.book.path, f": written: {change.areas}")
     say_next(project, change.has_formulas)
 
 

@@ -72,9 +72,14 @@ def plain(text: object) -> str:
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]}..."
 
 
-def say(line: str) -> None:
-    """Print a line of words: verdicts in color, and commands as the reader calls them."""
-    click.echo(colored(as_typed(plain(line))))
+def say(*parts: str | Path, is_error: bool = False) -> None:
+    """Print a line: words as `plain`, with verdicts in color and the reader's commands; paths."""
+    # A path is copied from the line: a no-break space of its own stays.
+    texts = [
+        _UNSAFE.sub("?", str(part)) if isinstance(part, Path) else colored(as_typed(plain(part)))
+        for part in parts
+    ]
+    click.echo("".join(texts), err=is_error)
 
 
 def print_json(document: Any) -> None:

@@ -17,11 +17,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
 
-import click
-
-from report.cli.console import INPUT_ERROR, plain, print_json
+from report.cli.console import INPUT_ERROR, print_json, say
 from report.results.publish import OUTPUTS
-from report.text.command_line import as_typed
 from report.text.counts import numbered
 from solver.errors import InputError, Problem
 
@@ -79,10 +76,9 @@ def say_earlier_outputs(outputs: Sequence[Path]) -> None:
     if not files:
         return
     newest = dt.datetime.fromtimestamp(max(path.stat().st_mtime for path in files))
-    subject = f"{files[0]} is" if len(files) == 1 else f"{files[0]} and {len(files) - 1} more are"
-    were = "was" if len(files) == 1 else "were"
-    line = f"{subject} from an earlier run ({newest:%Y-%m-%d %H:%M}) and {were} not replaced"
-    click.echo(plain(line), err=True)
+    are, were = ("is", "was") if len(files) == 1 else (f"and {len(files) - 1} more are", "were")
+    text = f" {are} from an earlier run ({newest:%Y-%m-%d %H:%M}) and {were} not replaced"
+    say(files[0], text, is_error=True)
 
 
 def document(source: Path, problems: Sequence[Problem] = ()) -> dict[str, Any]:
@@ -99,9 +95,9 @@ def say_problems(source: Path, problems: Sequence[Problem]) -> None:
     # Imported for an error alone: `motion` and `slide` need no models of a workbook.
     from report.project.check.finding_lines import grouped, line_of
 
-    click.echo(f"{plain(source)}: {numbered(len(problems), 'error')}:", err=True)
+    say(source, f": {numbered(len(problems), 'error')}:", is_error=True)
     for equal_problems in grouped(problems):
-        click.echo(f"  {as_typed(plain(line_of(equal_problems)))}", err=True)
+        say(f"  {line_of(equal_problems)}", is_error=True)
 
 
 def system_problem(error: OSError) -> Problem:

@@ -10,12 +10,13 @@ import atexit
 import gc
 import os
 import sys
+from pathlib import Path
 from typing import Any
 
 import click
 
 from report.cli.commands.installation import VARIABLE
-from report.cli.console import INPUT_ERROR, INTERRUPTED, color_choice, plain
+from report.cli.console import INPUT_ERROR, INTERRUPTED, color_choice, say
 from report.cli.lazy_group import LazyGroup
 from report.cli.streams import (
     UntilClosed,
@@ -98,12 +99,12 @@ def main() -> None:
         sys.exit(INPUT_ERROR)
     settings = os.path.abspath(".numba_config.yaml")
     if os.path.lexists(settings):
-        click.echo(
-            f"{plain(settings)}: this file can make numba, the compiler of the solver, run code"
-            " from "
-            "this folder; delete it, or change to another folder. Use environment variables "
-            "for numba settings instead.",
-            err=True,
+        say(
+            Path(settings),
+            ": this file can make numba, the compiler of the solver, run code from this folder; "
+            "delete it, or change to another folder. Use environment variables for numba settings "
+            "instead.",
+            is_error=True,
         )
         sys.exit(INPUT_ERROR)
     stay_apart()

@@ -8,9 +8,7 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import click
-
-from report.cli.console import plain, say_next
+from report.cli.console import say, say_next
 from report.cli.input_errors import input_errors
 from report.motions.sets import sets_of, table
 from report.motions.stored import unpack
@@ -52,13 +50,13 @@ def add_motions(
             if not any(fnmatchcase(name.casefold(), pattern) for pattern in patterns):
                 del sets[name]
         for line in table(sets):
-            click.echo(plain(line))
+            say(line)
         for name, reason in refused:
-            click.echo(plain(f"skipped: {name}: {reason}"))
+            say(f"skipped: {name}: {reason}")
         without = [name for name, records in sets.items() if len(records) == 2]
         if without:
-            click.echo(
-                f"note: {plain(', '.join(without))}: no vertical record. The analysis procedure"
+            say(
+                f"note: {', '.join(without)}: no vertical record. The analysis procedure"
                 " requires motions with two horizontal components and a vertical component,"
                 " so it is not permitted with these motions."
             )
@@ -75,7 +73,7 @@ def add_motions(
             added, change.files = set_rows(change.book, folder, sets, cells)
             change.fill(row_cells(change.book, added))
         path = change.book.path
-        click.echo(f"{path.parent}: {numbered(len(change.files), 'record')} copied.")
+        say(path.parent, f": {numbered(len(change.files), 'record')} copied.")
         rows_added = f"{numbered(len(added), 'row')} added to the Motions worksheet"
-        click.echo(f"{path}: {rows_added}: {change.areas}")
+        say(path, f": {rows_added}: {change.areas}")
         say_next(path, change.has_formulas)

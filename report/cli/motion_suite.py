@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from report.cli.console import plain, say_next
+from report.cli.console import say, say_next
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
 from report.project.read.read import read
@@ -30,7 +30,6 @@ from report.text.command_line import called
 from report.text.counts import numbered
 from solver.errors import InputError
 from solver.rules.ac156 import Tail
-from solver.spaces import spaced
 
 
 def generate_suite(
@@ -68,18 +67,18 @@ def generate_suite(
         else:
             publish(files, folder)
     for line in (*taken, *suite_table(motions, targets), *seeds.notes):
-        click.echo(spaced(line))
-    click.echo(f"{folder}: {len(files) - 2} records, suite.json, suite.png; seed {seed}")
+        say(line)
+    say(folder, f": {len(files) - 2} records, suite.json, suite.png; seed {seed}")
     if sheet:
         earlier_ids = {row.get("id") for row in sheet.inputs["motions"]}
         renewed = len({row["id"] for row in rows} & earlier_ids)
         also = f", {renewed} updated" if renewed else ""
         added = f"{numbered(count - renewed, 'row')} added to the Motions worksheet{also}"
-        click.echo(f"{sheet.path}: {added}: {change.areas}")
+        say(sheet.path, f": {added}: {change.areas}")
         say_next(sheet.path, change.has_formulas)
         return
     for line in said_near(folder):
-        click.echo(plain(f"warning: {line}"), err=True)
+        say(f"warning: {line}", is_error=True)
     click.echo(
         "Next: copy the records into records/ of a project, list them on its Motions worksheet,"
     )

@@ -5,13 +5,13 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import asdict
 from pathlib import Path
 
 import click
 
+from report.cli.console import print_json, say
 from report.cli.input_errors import input_errors
 from report.text.aligned import aligned
 from report.text.json_numbers import finite
@@ -75,14 +75,14 @@ def slide_block(
         "friction_demand": solution.friction_demand,
     }
     if as_json:
-        click.echo(json.dumps(finite(values)))
+        print_json(finite(values))
         return
     rows = []
     # Six digits: the numbers are read by a person here; --json has all of them.
     for name, value in values.items():
         rows.append((name, f"{value:.6g}" if isinstance(value, float) else str(value)))
     for line in aligned(rows, "><"):
-        click.echo(line)
+        say(line)
 
 
 def _read(names: tuple[str | None, ...], units: str, dt_s: float) -> list[Record | None]:

@@ -6,10 +6,8 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-import click
-
 from report.assessment.revision_changes import Changes
-from report.cli.console import NOT_OK, plain, print_json, say
+from report.cli.console import NOT_OK, print_json, say
 from report.cli.input_errors import document, input_errors, outputs_of
 from report.cli.progress import Progress
 from report.making import Made, make
@@ -75,11 +73,11 @@ def show(made: Made) -> None:
         say(line)
     if made.changes.is_asked_for:
         _print_changes(made.changes)
-    click.echo("")
+    say("")
     package, *tables = (made.folder / name for name in made.files)
     for path in tables:
-        click.echo(path)
-    say(f"{verdict}; {package}, {numbered(made.sheets, 'sheet')}")
+        say(path)
+    say(f"{verdict}; ", package, f", {numbered(made.sheets, 'sheet')}")
 
 
 def warn_of_other_packages(written: Path) -> None:
@@ -93,14 +91,14 @@ def warn_of_other_packages(written: Path) -> None:
 
 
 def _print_changes(changes: Changes) -> None:
-    before = {item.title: plain(item.before) for item in changes.items if item.cell}
+    before = {item.title: item.before for item in changes.items if item.cell}
     # Both changed: one alone may be a correction.
     if {"Project name", "Project number"} <= before.keys():
-        click.echo(
+        say(
             f"the --since file is from another project: {before['Project number']},"
             f" {before['Project name']}; check that it is the previous revision of this one"
         )
-    click.echo(
+    say(
         f"since revision {changes.revision}: {counted(changes)}; the package lists them after its "
         "summary"
     )

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import click
 
-from report.cli.console import DIFFERS, NOT_COMPARED, plain, print_json, say
+from report.cli.console import DIFFERS, NOT_COMPARED, print_json, say
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
 from report.making import make
@@ -109,20 +109,18 @@ def made_again(workbook: Path, out: Path, earlier: list[Path], progress: Progres
 
 def _print(proof: Proof, written: str) -> None:
     if proof.known_errors:
-        click.echo("Known errors of the version that created the package, which may affect it:")
+        say("Known errors of the version that created the package, which may affect it:")
     for error in proof.known_errors:
-        click.echo(f"  {error.error} {error.action}")
-    click.echo(_ANSWERS[proof.answer])
+        say(f"  {error.error} {error.action}")
+    say(_ANSWERS[proof.answer])
     for reason in proof.reasons:
         say(f"  {reason}")
     if written:
-        click.echo(plain(f"The regenerated package: {written}"))
+        say("The regenerated package: ", Path(written))
     for signature in proof.signed:
-        click.echo(
-            plain(
-                f"Signed later in the field '{signature.field}', by '{signature.signer}'. The "
-                "issuer of the certificate was not checked; a PDF reader does that."
-            )
+        say(
+            f"Signed later in the field '{signature.field}', by '{signature.signer}'. The "
+            "issuer of the certificate was not checked; a PDF reader does that."
         )
 
 
@@ -147,7 +145,7 @@ def sign_package(
             raise InputError("the signed package must have a different name; use another --out")
         content = signed(read_package(file), certificate, password, time_stamp)
         write_whole(target, content)
-    click.echo(target)
+    say(target)
 
 
 def _typed_password() -> str:

@@ -14,7 +14,7 @@ import click
 
 from report.cli.clearance_rows import add_clearances
 from report.cli.commands.plan import UNIT_CHOICES
-from report.cli.console import plain, say_next
+from report.cli.console import say, say_next
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
 from report.drawing_read.fill import fill_plan, layers_of, plan_as_rows, unread
@@ -91,7 +91,7 @@ def read_plan(
     lines += [f"layer {name}: {kind.value}" for name, kind in layer_kinds.items()]
     lines.append(f"{change.book.path}: plan updated: {change.areas}")
     for text in (*lines, *plan_lines, *clearance_lines, *withdrawn_lines):
-        click.echo(plain(text))
+        say(text)
     say_next(project, change.has_formulas)
 
 
@@ -138,7 +138,7 @@ def choose(
     # A guess that is filled in unseen would move an array: it is shown first.
     if kinds and not accept:
         for line in _table(drawing, outlines, kinds):
-            click.echo(plain(line))
+            say(line)
         raise InputError(
             f"nothing was written: no type is known for {numbered(len(kinds), 'layer')};"
             " use --accept to accept the proposed types, or --layer NAME=TYPE for a layer, where"

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import click
-
+from report.cli.console import print_json, say
 from report.cli.input_errors import input_errors
 from report.motions.measured import summary, table
 from solver.errors import InputError
@@ -36,13 +34,13 @@ def print_channels(file: Path, *, channel: str, as_json: bool, **reading: Any) -
             "notes": [*map(spaced, motion_file.notes)],
             "channels": channels,
         }
-        click.echo(json.dumps(document))
+        print_json(document)
         return
-    click.echo(f"{file}: {motion_file.format}")
+    say(file, f": {motion_file.format}")
     for line in table(channels):
-        click.echo(line)
+        say(line)
     for note in motion_file.notes:
-        click.echo(spaced(f"note: {note}"))
+        say(f"note: {note}")
 
 
 def convert_record(file: Path, out: Path, *, channel: str, factor: float, **reading: Any) -> None:
@@ -55,8 +53,8 @@ def convert_record(file: Path, out: Path, *, channel: str, factor: float, **read
         scaled = replace(record, a_mps2=factor * record.a_mps2)
         write_whole(out, record_csv(scaled, within=_TOLERANCE).encode())
     for note in motion_file.notes:
-        click.echo(spaced(f"note: {note}"))
-    click.echo(out)
+        say(f"note: {note}")
+    say(out)
 
 
 def _read(path: Path, reading: Mapping[str, Any]) -> MotionFile:

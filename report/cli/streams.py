@@ -14,7 +14,7 @@ from typing import Any, TextIO
 
 import click
 
-from report.cli.console import plain
+from report.cli.console import say
 
 
 @contextmanager
@@ -98,7 +98,7 @@ def show_warnings() -> None:
 
     def show(message: Warning | str, category: type[Warning], *place: Any, **options: Any) -> None:
         if category is UserWarning:
-            click.echo(f"warning: {plain(message)}", err=True)
+            say(f"warning: {message}", is_error=True)
         else:
             usual(message, category, *place, **options)
 

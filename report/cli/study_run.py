@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import click
-
-from report.cli.console import plain
+from report.cli.console import say
 from report.cli.input_errors import input_errors, workbook_of
 from report.cli.progress import Progress
 from report.results.publish import check_apart, check_of_workbook, output_folder
@@ -33,15 +31,15 @@ def run(
     with input_errors(source, outputs=[folder / name for name in names]):
         plan, home = planned(source)
         for cell, text in plan.warnings:
-            click.echo(plain(f"warning: {cell}: {text}"), err=True)
+            say(f"warning: {cell}: {text}", is_error=True)
         if dry_run:
             cost = estimate(plan)
             capacity_runs = f"; at most {cost.capacity_runs:,} more runs for the capacities"
-            click.echo(
+            say(
                 f"{cost.cases:,} cases, {cost.runs:,} runs in {cost.parts:,} batches"
                 f"{capacity_runs if cost.capacity_runs else ''}"
             )
-            click.echo(f"{cost.disk_bytes / 1e6:,.1f} MB of disk space")
+            say(f"{cost.disk_bytes / 1e6:,.1f} MB of disk space")
             return
         folder = output_folder(out, home, "out/study", (TABLE, NAME))
         # A folder that was asked for by name may have the study of another workbook.
@@ -65,6 +63,6 @@ def run(
     # The time is no result, and not in the files to read.
     seconds = results.manifest["processor_seconds"]
     for line in (f"{first}, {seconds:,.0f} s of processor time", *further):
-        click.echo(plain(line))
+        say(line)
     for name in files:
-        click.echo(folder / name)
+        say(folder / name)

@@ -6,6 +6,7 @@ import resource
 import signal
 import subprocess
 import sys
+from pathlib import Path
 from subprocess import DEVNULL, PIPE
 
 import pytest
@@ -13,7 +14,7 @@ import pytest
 from fixtures.commands import errors_of, hearing, no_override, stdout_of
 from fixtures.paths import ROOT
 from fixtures.workbooks import cell_address, edit, make, type_into
-from report.cli.console import plain
+from report.cli.console import plain, say
 from report.cli.several_packages import package
 
 RECORD = ROOT / "projects" / "example" / "records" / "RM1-x.csv"
@@ -294,6 +295,11 @@ def test_too_long_names_are_refused_before_the_run_odd_letters_and_long_values_s
     line = f"<Arrays/A1/CG height>: CG height is 1{'0' * 58}…; enter a number greater than 0"
     assert cell_address(line) in told
     assert max(map(len, told.splitlines())) < 300
+
+
+def test_words_are_printed_with_ordinary_spaces_and_a_path_keeps_its_own(capsys):
+    say(Path("a\u00a0b.csv"), ": 30\u00a0in")
+    assert capsys.readouterr().out == "a\u00a0b.csv: 30 in\n"
 
 
 def test_a_name_defined_off_the_sheet_is_no_name(tmp_path):
