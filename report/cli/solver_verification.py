@@ -6,9 +6,7 @@ import datetime as dt
 import sys
 from pathlib import Path
 
-import click
-
-from report.cli.console import colored
+from report.cli.console import say
 from report.cli.input_errors import input_errors
 from report.cli.progress import Progress
 from report.manual.manual_files import files as manual_files
@@ -43,18 +41,18 @@ def verify_solver(out: Path | None, *, quick: bool, records: Path | None) -> Non
     failed = [row for row in verification.checks if not row.passed]
     passed = len(verification.checks) - len(failed)
     verdict = "FAIL" if failed else "PASS"
-    click.echo(colored(f"{verdict}: {passed} of {len(verification.checks)} checks passed"))
+    say(f"{verdict}: {passed} of {len(verification.checks)} checks passed")
     if verification.left_out:
         left_out = numbered(len(verification.left_out), "check")
-        click.echo(f"{left_out} left out: SciPy is not installed; install the extra verify")
+        say(f"{left_out} left out: SciPy is not installed; install the extra verify")
     for row in failed:
-        click.echo(
+        say(
             f"  {row.section}: {row.problem}, {row.quantity}: expected {row.expected:.10g}, found "
             f"{row.computed:.10g} {row.unit}, error {row.error:.1e} exceeds "
             f"{row.tolerance:.1e}"
         )
     for name in files:
-        click.echo(out / name)
+        say(out / name)
     # Without any check nothing passed either.
     if failed or not verification.checks:
         sys.exit(1)

@@ -20,7 +20,6 @@ from report.assessment.checks.check import dagger
 from report.document.tables import headed
 from report.text.counts import counted, numbered, spelled, thousands
 from report.text.error_text import below_mm, general, percent, scientific, seconds
-from report.text.formula_text import lettered
 from report.text.letter_case import capitalized, lowered
 from report.text.names import joined, named, ranged, shortened
 from report.text.units import digits_down, digits_up, number, ratio, ratio_up
@@ -35,7 +34,7 @@ _HERE = Path(__file__).resolve().parents[2]
 
 _FILTERS = (
     below_mm, capitalized, counted, dagger, data_uri, digits_down, digits_up, formula, general,
-    joined, lettered, lowered, named, number, numbered, percent, ranged, ratio, ratio_up,
+    joined, lowered, named, number, numbered, percent, ranged, ratio, ratio_up,
     scientific, seconds, shortened, spelled, symbol, thousands,
 )  # fmt: skip
 

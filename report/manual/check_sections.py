@@ -17,7 +17,6 @@ from report.manual.paper_sections import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT
 from report.manual.precision import floor
 from report.pages.parts import verdict
 from report.text.error_text import percent, scientific, seconds, ten_digits
-from report.text.formula_text import lettered, unbroken
 from report.text.grouping import grouped_by
 from report.text.names import ranged
 from report.text.units import NO_BREAK, number
@@ -132,7 +131,7 @@ def _used(rows: Sequence[Verified]) -> str:
 
 
 _CHECK_COLUMNS = (
-    (words("Problem", 3.15), lambda row: unbroken(lettered(row.problem))),
+    (words("Problem", 3.15), lambda row: row.problem),
     (words("Quantity", 1.95), lambda row: _quantity(row)),
     (text("Expected", share=1.55), lambda row: ten_digits(row.expected)),
     (text("Computed", share=1.55), lambda row: ten_digits(row.computed)),
@@ -146,7 +145,7 @@ def checks(verification: Verification) -> Section:
     """Return every check, a table for each section."""
 
     def source(row: Verified) -> str:
-        return f"{row.id}. Source: {lettered(row.source)}"
+        return f"{row.id}. Source: {row.source}"
 
     return section(
         "manual/checks",
@@ -159,7 +158,7 @@ def checks(verification: Verification) -> Section:
 
 
 def _quantity(row: Verified) -> str:
-    return row.quantity if row.unit == "1" else f"{row.quantity} [{lettered(row.unit)}]"
+    return row.quantity if row.unit == "1" else f"{row.quantity} [{row.unit}]"
 
 
 _FEATURE_COLUMNS = (

@@ -26,6 +26,7 @@ from report.provenance.package_sources import installed, processor
 from report.provenance.release import version
 from report.text.csv_text import csv_text
 from report.text.grouping import grouped_by
+from report.text.units import NO_BREAK
 from report.text.validation import NOT_VALIDATED
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.verification.evidence import Verification
@@ -169,6 +170,6 @@ def verification_csv(verification: Verification) -> bytes:
     parts += [("run in two axes", evidence.work[_OF_TWO_AXES]) for evidence in verification.models]
     kinds, frames = zip(*parts, strict=True)
     table = pd.concat(frames, keys=kinds, names=["kind", None]).reset_index("kind")
-    # None is an empty cell; NaN would be a word.
-    cells = table.astype(object).where(table.notna(), None)
+    # None is an empty cell; NaN would be a word. Spaces are ordinary ones outside of pages.
+    cells = table.astype(object).where(table.notna(), None).replace(NO_BREAK, " ", regex=True)
     return csv_text([table.columns, *cells.itertuples(index=False)]).encode()

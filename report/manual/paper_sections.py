@@ -12,7 +12,6 @@ from report.document.sections import Section, section
 from report.document.tables import Table, closed_by, listed
 from report.manual import paper_figures
 from report.text.error_text import general, percent, seconds
-from report.text.formula_text import lettered
 from report.text.grouping import grouped_by
 from report.text.names import slug
 from report.text.units import NO_BREAK, number
@@ -53,7 +52,7 @@ def _errors(study: pd.DataFrame) -> Table:
         (against_last, lambda row: percent(row.finest_percent or math.nan)),
         (text("Against exact, of the PRD", share=1.3), lambda row: percent(row.prd_percent)),
         (text("Longest time"), lambda row: seconds(row.seconds)),
-        (words("Worst scenario", 2.2), lambda row: lettered(row.worst_case)),
+        (words("Worst scenario", 2.2), lambda row: row.worst_case),
     )
     return listed(study.itertuples(), columns, kind="compact")
 

@@ -13,7 +13,6 @@ from report.document.tables import Column, Table, listed
 from report.figures.base import power_of_ten
 from report.manual import work_figures as figures
 from report.text.error_text import percent, seconds
-from report.text.formula_text import lettered
 from report.text.letter_case import capitalized
 from report.text.names import joined
 from report.text.units import number
@@ -34,15 +33,15 @@ def floor(verification: Verification) -> float:
 
 _KNOBS = {
     "": "no setting", "substeps": "sub-steps per interval",
-    "stiffness_per_m": "link stiffness [1/m]", "velocity_mps": "velocity v0 [m/s]",
+    "stiffness_per_m": "link stiffness [1/m]", "velocity_mps": "velocity v₀ [m/s]",
 }  # fmt: skip
 _METHODS = (
-    (words("Method", 1.7), lambda method: lettered(method.title)),
+    (words("Method", 1.7), lambda method: method.title),
     (words("Accuracy set by", 1.5), lambda method: _KNOBS[method.knob]),
     (centered("Order", 0.55), lambda method: number(method.order, 0)),
     (centered("Vertical", 0.75), lambda method: "yes" if method.takes_vertical else "no"),
-    (words("Limitations", 3.6), lambda method: lettered(method.invalid_when)),
-    (words("Source", 2.6), lambda method: lettered(method.source)),
+    (words("Limitations", 3.6), lambda method: method.invalid_when),
+    (words("Source", 2.6), lambda method: method.source),
 )
 
 
@@ -50,7 +49,7 @@ def methods(verification: Verification) -> Section:
     """Return what each method is, and its errors against 50 digits."""
     errors = verification.rivals
     kinds = errors.pivot(columns="motions", values="error [%]").assign(method=errors["method"])
-    name = (words("Method", 3.6), lambda row: lettered(METHODS[row[0]].title))
+    name = (words("Method", 3.6), lambda row: METHODS[row[0]].title)
     of_kinds = (_errors(capitalized(kind), kind, reference="") for kind in (RANDOM, ROOF))
     return section(
         "manual/methods",
@@ -119,7 +118,7 @@ def _shown(runs: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
         groups = [group for _, group in own.groupby("setting", sort=False, dropna=False)]
         # Every other setting of a long sweep keeps the table short.
         for count, group in enumerate(groups[::2] if len(groups) > 5 else groups):
-            yield "" if count else lettered(METHODS[str(name)].title), group
+            yield "" if count else METHODS[str(name)].title, group
 
 
 def _setting(method: str, value: float) -> str:

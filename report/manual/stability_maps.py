@@ -29,7 +29,6 @@ from report.figures.base import (
     svg_text,
     ticks,
 )
-from report.text.formula_text import lettered
 from report.text.units import G_MPS2
 from solver.model import Floats
 from solver.verification.evidence import RoofComparison, RoofPrediction, StabilityMap
@@ -93,8 +92,7 @@ def _map(axes: Axes, sweep: StabilityMap, count: int) -> None:
     axes.set_ylim(y[0], y[-1])
     axes.set_xlabel(sweep.x_label)
     axes.set_ylabel(sweep.y_label)
-    title = lettered(sweep.title).replace(": ", ":\n", 1)
-    axes.set_title(f"({count}) {title}", loc="left", weight="semibold")
+    axes.set_title(f"({count}) {sweep.title}", loc="left", weight="semibold")
 
 
 def _edges(centers: Floats, *, log: bool = True) -> Floats:

@@ -158,11 +158,11 @@ _ALL = (
         title="Link with a friction cap, explicit",
         label="link, explicit",
         invalid_when=(
-            "It is unstable for sub-steps above 2 / sqrt(g k), and above 1.7 / sqrt(g k) it may "
-            "slip in every third sub-step. A soft link adds its own stretch, mu / k, and vibrates "
+            "It is unstable for sub-steps above 2 / √(g k), and above 1.7 / √(g k) it may "
+            "slip in every third sub-step. A soft link adds its own stretch, μ / k, and vibrates "
             "without decay."
         ),
-        source=f"{_PAPER}, SAP 2000: Newmark gamma 0.5, beta 0, no damping, 100 N/mm on 1 N",
+        source=f"{_PAPER}, SAP 2000: Newmark γ 0.5, β 0, no damping, 100 N/mm on 1 N",
         follow=partial(_link, implicit=False),
     ),
     _by_link(
@@ -170,10 +170,10 @@ _ALL = (
         title="Link with a friction cap, implicit",
         label="link, implicit",
         invalid_when=(
-            "For sub-steps above 2 / sqrt(g k) Newton's method may alternate between stick and "
-            "slip without converging. A soft link adds its own stretch, mu / k."
+            "For sub-steps above 2 / √(g k) Newton's method may alternate between stick and "
+            "slip without converging. A soft link adds its own stretch, μ / k."
         ),
-        source="OpenSees flatSliderBearing with Newmark gamma 0.5, beta 0.25 and Newton's method",
+        source="OpenSees flatSliderBearing with Newmark γ 0.5, β 0.25 and Newton's method",
         follow=partial(_link, implicit=True),
     ),
     *(
@@ -205,7 +205,7 @@ _ALL = (
     ),
     Method(
         name="regularized",
-        title="Friction mu N tanh(v / v0), SciPy's LSODA",
+        title="Friction μ N tanh(v / v₀), SciPy's LSODA",
         label="SciPy LSODA, regularized (by steps)",
         parameters=MappingProxyType({"velocity_mps": 1e-4, "tolerance": 1e-4}),
         knob="velocity_mps",
@@ -213,7 +213,7 @@ _ALL = (
         order=math.nan,
         takes_vertical=True,
         invalid_when=(
-            "On any slope: the block creeps at v0 atanh(tan(theta) / mu) when it should stick, for "
+            "On any slope: the block creeps at v₀ atanh(tan(θ) / μ) when it should stick, for "
             "any tolerance. Its steps are compiled, and call the compiled right-hand side through "
             "Python."
         ),
@@ -223,7 +223,7 @@ _ALL = (
     ),
     _without_setting(
         name="frozen-normal",
-        title="Constant normal force, m g cos(theta)",
+        title="Constant normal force, m g cos(θ)",
         label="normal force frozen",
         invalid_when="On any slope and with vertical shaking: both change the normal force.",
         source="As in SLAMMER's dual-slope analysis and with an elastic-plastic spring",

@@ -22,7 +22,7 @@ from solver.building.structure import (
 )
 from solver.model import Floats
 from solver.records.record import Record
-from solver.spaces import NO_BREAK
+from solver.spaces import NO_BREAK, equation
 from solver.verification.building import FloorRecords
 from solver.verification.evidence import ROUNDING, RoofComparison, Verified
 
@@ -108,21 +108,21 @@ def _exponential(matrix: Floats) -> Floats:
 
 
 def _steps() -> Iterator[Verified]:
-    source = "Oscillator of period T: 1 - exp(-D t) (cos(W t) - D / W sin(W t)) at t = 1.37 s; "
-    source += "D = zeta omega, W = damped frequency"
+    source = "Oscillator of period T: 1 − exp(−D t) (cos(W t) − D / W sin(W t)) at t = 1.37 s; "
+    source += "D = ζ ω, W = damped frequency"
     for period_s, zeta in ((0.9, 0.03), (0.05, 0.2), (6.0, 0.005)):
         t, w = 1.37, 2.0 * math.pi / period_s
         kappa = math.sqrt(1.0 - zeta**2)
         wave = math.cos(kappa * w * t) - zeta / kappa * math.sin(kappa * w * t)
         expected = 1.0 - math.exp(-zeta * w * t) * wave
         peak = float(absolute_accelerations(np.ones(138), 0.01, [period_s], [zeta])[-1, 0])
-        name = f"Unit step, T = {period_s:g} s, zeta = {zeta:g}"
-        yield Verified("RM-1", source, "Acceleration", "m/s2", name, expected, peak)
+        name = f"Unit step, {equation('T', period_s, 's')}, {equation('ζ', zeta)}"
+        yield Verified("RM-1", source, "Acceleration", "m/s²", name, expected, peak)
 
 
 def _steady_waves() -> Iterator[Verified]:
     dt, period_s, zeta = 0.001, 0.5, 0.1
-    source = "Transmissibility sqrt((1 + d) / ((1 - r^2)^2 + d)), d = (2 zeta r)^2; one story, "
+    source = "Transmissibility √((1 + d) / ((1 − r²)² + d)), d = (2 ζ r)²; one story, "
     source += "damping ratio 0.1, step 0.001 s"
     building = building_of_periods([period_s], damping=[zeta], stories=1)
     for ratio in (0.5, 1.0, 2.0):
@@ -132,13 +132,13 @@ def _steady_waves() -> Iterator[Verified]:
         damped = (2.0 * zeta * ratio) ** 2
         expected = math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped))
         amplitude = float(np.abs(roof[-round(1.0 / dt) :]).max())
-        name = f"Harmonic, frequency ratio r = {ratio:g}"
+        name = f"Harmonic, frequency ratio {equation('r', ratio)}"
         yield Verified("RM-2", source, "Roof / ground", "1", name, expected, amplitude, 1e-4)
 
 
 def _limits() -> Iterator[Verified]:
-    table = "Blevins (1979), Table 8-1: ratios of squared gamma, and 4 sigma / gamma"
-    closed = "Shear beam: 2 n - 1, and 4 / ((2 n - 1) pi) with alternating sign"
+    table = "Blevins (1979), Table 8-1: ratios of squared γ, and 4 σ / γ"
+    closed = "Shear beam: 2 n − 1, and 4 / ((2 n − 1) π) with alternating sign"
     bending, shear = beam_modes(0.0, 3), beam_modes(math.inf, 3)
     first = _BENDING[0][0]
     for n, (gamma, sigma) in enumerate(_BENDING, start=1):
@@ -216,7 +216,7 @@ def _sums() -> Iterator[Verified]:
 
 
 def _stories() -> Iterator[Verified]:
-    source = "Mode shape sin((2 n - 1) pi k / (2 N + 1)) at floor k"
+    source = "Mode shape sin((2 n − 1) π k / (2 N + 1)) at floor k"
     for stories in (1, 2, 5):
         angle = math.pi / (2.0 * stories + 1.0)
         shape = np.sin(angle * np.arange(1, stories + 1))

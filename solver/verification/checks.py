@@ -18,6 +18,7 @@ from solver.model import STANDARD_GRAVITY_MPS2, EventKind, Floats, SlideResult
 from solver.records.record import Record
 from solver.rivals.methods import METHODS
 from solver.sliding.checked import slide, slide_history
+from solver.spaces import NO_BREAK, equation, with_minus
 from solver.verification import reference, study_cases
 from solver.verification.evidence import ROUNDING, Verified, percent_of
 from solver.verification.reference import Reference
@@ -71,7 +72,7 @@ def _pulses_on_a_flat_roof() -> Iterator[Verified]:
     dt, ramps = 0.01, 3000
     newmark = f"Newmark, Geotechnique 15 (1965); each ramp is 1/{ramps} of the pulse"
     for a, mu, lasts in ((0.4, 0.1, 0.2), (0.5, 0.2, 0.3), (1.0, 0.4, 0.1)):
-        name = f"A = {a:g} g for {lasts:g} s, mu = {mu:g}, flat roof"
+        name = f"{equation('A', a, 'g')} for {lasts:g} s, {equation('μ', mu)}, flat roof"
         plateau = round(lasts / dt)
         expected = reference.pulse_travel(a * G, mu * G, plateau * dt, dt)
         result = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
@@ -96,8 +97,11 @@ def _pulses_on_a_slope() -> Iterator[Verified]:
             expected = reference.pulse_travel(drive, resist, plateau * dt, dt) * math.cos(slope)
             ax, az = (trapezoid(peak * G, plateau, 900) for peak in (-a, b))
             result = slide(ax, dt, slope_rad=slope, mu=mu, az_mps2=az, g_mps2=G)
-            name = f"Trapezoidal pulse A = {a:g} g, vertical {b:g} g, for {lasts:g} s, "
-            yield row(f"{name}mu = {mu:g}, slope {degrees} deg", expected, result.down_m)
+            name = (
+                f"Trapezoidal pulse {equation('A', a, 'g')}, vertical {with_minus(b)}{NO_BREAK}g, "
+            )
+            name += f"for {lasts:g} s, {equation('μ', mu)}, slope {degrees} deg"
+            yield row(name, expected, result.down_m)
 
 
 def _half_sines() -> Iterator[Verified]:
@@ -105,7 +109,9 @@ def _half_sines() -> Iterator[Verified]:
     second = "Errors with 200 and 400 samples: linear interpolation is second order"
     for a, mu, freq in ((0.5, 0.2, 1.0), (0.8, 0.4, 2.0), (1.0, 0.1, 1.0)):
         expected = reference.half_sine_travel(a, mu, freq, G)
-        name = f"Half-sine pulse A = {a:g} g, {freq:g} Hz, mu = {mu:g}, flat roof"
+        name = (
+            f"Half-sine pulse {equation('A', a, 'g')}, {freq:g} Hz, {equation('μ', mu)}, flat roof"
+        )
         travels_m = []
         for steps in (100, 200, 400):
             dt = 0.5 / freq / steps
@@ -124,12 +130,15 @@ def _harmonic() -> Verified:
     ax = 0.5 * G * np.sin(2.0 * np.pi * np.arange(80 * 2000 + 1) * dt)
     history = slide_history(ax, dt, slope_rad=0.0, mu=0.2, g_mps2=G)
     stops = [event.u_m for event in history.events if event.kind is EventKind.STOP]
+    name = (
+        f"Steady-state harmonic {equation('A', 0.5, 'g')}, 1 Hz, {equation('μ', 0.2)}, flat roof, "
+    )
     return Verified(
         "CF-6",
-        "(2 A / omega^2) sqrt(1 - (pi eta / 2)^2), eta = mu g / A; sampled at 0.0005 s",
+        "(2 A / ω²) √(1 − (π η / 2)²), η = μ g / A; sampled at 0.0005 s",
         "Travel per half cycle",
         "m",
-        "Steady-state harmonic A = 0.5 g, 1 Hz, mu = 0.2, flat roof, after 80 cycles",
+        f"{name}after 80 cycles",
         reference.harmonic_travel(0.5, 0.2, 1.0, G),
         abs(stops[-1] - stops[-2]) if len(stops) > 1 else math.nan,
         1e-5,
@@ -141,19 +150,21 @@ def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> Verified:
     steps = round(time_s / 0.01)
     result = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
     expected = reference.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
-    name = f"No shaking, slope {degrees:g} deg, mu = {mu:g}: slides from rest for {time_s:g} s"
-    source = "0.5 (g sin(theta) - mu g cos(theta)) t^2, the paper's physical check 2"
+    name = (
+        f"No shaking, slope {degrees:g} deg, {equation('μ', mu)}: slides from rest for {time_s:g} s"
+    )
+    source = "0.5 (g sin(θ) − μ g cos(θ)) t², the paper's physical check 2"
     return Verified(id, source, *_DOWNSLOPE, name, expected, result.down_m)
 
 
 def _yield_accelerations() -> Iterator[Verified]:
-    source = "-g tan(phi - theta) and g tan(phi + theta), phi = atan(mu); computed by bisection"
-    row = partial(Verified, "CF-8", source, "Yield acceleration", "m/s2", tolerance=1e-9)
+    source = "−g tan(φ − θ) and g tan(φ + θ), φ = atan(μ); computed by bisection"
+    row = partial(Verified, "CF-8", source, "Yield acceleration", "m/s²", tolerance=1e-9)
     for degrees, mu in ((0.0, 0.4), (4.0, 0.4), (-7.0, 0.2), (30.0, 1.0)):
         slope = math.radians(degrees)
         limits = reference.yield_accelerations(slope, mu, G)
         for way, limit in zip(("downslope", "upslope"), limits, strict=True):
-            name = f"Slope {degrees:g} deg, mu = {mu:g}: onset of {way} slip"
+            name = f"Slope {with_minus(degrees)} deg, {equation('μ', mu)}: onset of {way} slip"
             yield row(name, limit, _limit_by_bisection(slope, mu, limit))
 
 
@@ -172,21 +183,21 @@ def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
 def _self_locking() -> Verified:
     ax = np.array([0.0, 50.0, 50.0, 50.0, 0.0])
     prd_m = slide(ax, 0.1, slope_rad=math.radians(60), mu=3.0, g_mps2=G).prd_m
-    name = "Self-locking: slope 60 deg, mu = 3, horizontal acceleration 50 m/s2"
-    source = "mu sin(theta) >= cos(theta): no horizontal acceleration causes slip"
+    name = f"Self-locking: slope 60 deg, {equation('μ', 3)}, horizontal acceleration 50 m/s²"
+    source = "μ sin(θ) ≥ cos(θ): no horizontal acceleration causes slip"
     return Verified("CF-9", source, "PRD", "m", name, 0.0, prd_m, 0.0)
 
 
 def physical_checks(record: Record) -> Iterator[Verified]:
     """Run the four physical checks of the paper."""
     slope, dt = math.radians(30), 0.01
-    row = partial(Verified, "PH-1", "Paper, Physical Checks (1): slope 30 deg, mu = 1", "PRD", "m")
+    row = partial(Verified, "PH-1", "Paper, Physical Checks (1): slope 30 deg, μ = 1", "PRD", "m")
     still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
     yield row("No shaking: no slip", 0.0, still.prd_m, 0.0)
     drive, resist = reference.slope_pulse(slope, 1.0, 0.6, 0.0, G)
     expected = reference.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)
     loose = slide(trapezoid(-0.6 * G, 30, 900), dt, slope_rad=slope, mu=1.0, g_mps2=G)
-    yield row("A pulse of 0.6 g for 0.3 s causes slip", expected, loose.prd_m)
+    yield row(f"A pulse of 0.6{NO_BREAK}g for 0.3 s causes slip", expected, loose.prd_m)
     yield _free_slide("PH-2", 7.0, 0.1, 5.0)
     down, up = (run(record, Case(slope_deg, 0.4, 1.5)) for slope_deg in (4.0, -4.0))
     yield Verified(
@@ -194,7 +205,7 @@ def physical_checks(record: Record) -> Iterator[Verified]:
         "Paper, Physical Checks (3): the deflections differ",
         "PRDs differ by more than 1% (1 = yes)",
         "1",
-        f"Slopes 4 and -4 deg, mu = 0.4, {record.name}, PPA = 1.5 g",
+        f"Slopes 4 and −4 deg, {equation('μ', 0.4)}, {record.name}, {equation('PPA', 1.5, 'g')}",
         1.0,
         float(abs(down.prd_m - up.prd_m) > 0.01 * max(down.prd_m, up.prd_m)),
         0.0,
@@ -204,9 +215,7 @@ def physical_checks(record: Record) -> Iterator[Verified]:
 
 def _critical_friction() -> Iterator[Verified]:
     slope, time_s = math.radians(0.5), 5.0
-    source = (
-        "Paper, Physical Checks (4): sliding with 0.999 tan(theta), no slip at 1.000 tan(theta)"
-    )
+    source = "Paper, Physical Checks (4): sliding with 0.999 tan(θ), no slip at 1.000 tan(θ)"
     below, just = 0.999 * math.tan(slope), math.tan(slope)
     travel_m = reference.free_slide_travel(slope, below, time_s, G) * math.cos(slope)
     for factor, mu, expected, tolerance in (
@@ -215,7 +224,7 @@ def _critical_friction() -> Iterator[Verified]:
         (1.0, just, 0.0, ROUNDING),
     ):
         result = slide(np.zeros(501), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
-        name = f"No shaking, slope 0.5 deg, mu = {factor:.3f} tan(theta), 5 s"
+        name = f"No shaking, slope 0.5 deg, μ{NO_BREAK}={NO_BREAK}{factor:.3f} tan(θ), 5 s"
         yield Verified("PH-4", source, "PRD", "m", name, expected, result.prd_m, tolerance)
 
 

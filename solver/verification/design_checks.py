@@ -26,6 +26,7 @@ from solver.rules.provisions import (
 from solver.rules.rulesets import RULE_SETS
 from solver.sliding.checked import scene
 from solver.sliding.uplift import Supports, tipping, uplift
+from solver.spaces import NO_BREAK, equation
 from solver.verification.evidence import Verified
 
 _INCH, _FOOT = 0.0254, 0.3048
@@ -50,7 +51,7 @@ def design_checks() -> Iterator[Verified]:
 
 
 def _prescriptive() -> Iterator[Verified]:
-    source = "60 in (S_DS - 0.4)^2 >= 6 in; 5 I_e (S_DS - 0.4)^2 ft >= 24 in"
+    source = "60 in (S_DS − 0.4)² ≥ 6 in; 5 I_e (S_DS − 0.4)² ft ≥ 24 in"
     row = partial(Verified, "DV-1", source, "Prescriptive displacement", "in")
     for code, s_ds_g, importance, inches in (
         ("SEAOC PV1-2012", 1.0, 1.25, 60.0 * 0.6**2),
@@ -59,7 +60,7 @@ def _prescriptive() -> Iterator[Verified]:
         ("ASCE 7-22", 1.0, 1.0, 24.0),
     ):
         found_m = _displacement_m(code, s_ds_g, importance)
-        name = f"{code}, SDC D, S_DS = {s_ds_g:g} g, I_e = {importance:g}"
+        name = f"{code}, SDC D, {equation('S_DS', s_ds_g, 'g')}, {equation('I_e', importance)}"
         yield row(name, inches, found_m / _INCH)
 
 
@@ -100,7 +101,7 @@ def _permit_sheet() -> Iterator[Verified]:
         yield Verified("DV-8", _SHEET, "Separation", "ft", name, feet, found_ft, 0.005 / feet)
     for s_ds_g, factor in ((1.5, 0.133 * 1.5), (0.5, 0.1)):
         found_lb = interconnection_strength_n(rules, s_ds_g=s_ds_g, w1_n=1000.0)
-        name = f"Interconnection, 1000 lb on the lighter side, S_DS = {s_ds_g:g} g"
+        name = f"Interconnection, 1000 lb on the lighter side, {equation('S_DS', s_ds_g, 'g')}"
         yield Verified("DV-8", by_hand, "Strength", "lb", name, 1000.0 * factor, found_lb)
 
 
@@ -117,36 +118,37 @@ def _statistics() -> Iterator[Verified]:
 def _uplift() -> Verified:
     az = np.array([0.0, -2.0, 0.0]) * STANDARD_GRAVITY_MPS2
     rising = scene(np.zeros(3), 1.0, slope_rad=math.radians(5.0), mu=0.4, az_mps2=az)
-    name = "Vertical acceleration falls to -2 g within 1 s, slope 5 deg"
-    source = "N = (g + a_v) cos(theta): zero after 0.5 s"
+    name = f"Vertical acceleration falls to −2{NO_BREAK}g within 1 s, slope 5 deg"
+    source = "N = (g + a_v) cos(θ): zero after 0.5 s"
     return Verified("DV-4", source, "Time of uplift", "s", name, 0.5, uplift(rising).t_first_s)
 
 
 def _tipping() -> Iterator[Verified]:
     row = partial(
-        Verified, "DV-5", "min(a_h / g, mu) / (b / (2 h))", "Ratio of shear to tipping shear"
+        Verified, "DV-5", "min(a_h / g, μ) / (b / (2 h))", "Ratio of shear to tipping shear"
     )
     # Tall and rough enough to tip before it slides; then the same with less friction.
     supports = Supports(height_m=1.0, spacing_m=1.5)
     ax = 0.5 * STANDARD_GRAVITY_MPS2 * np.array([0.0, 1.0, 0.0])
+    size = f"{equation('h', 1, 'm')}, {equation('b', 1.5, 'm')}"
     for mu, shear in ((2.0, 0.5), (0.3, 0.3)):
         ratio = tipping(scene(ax, 0.5, slope_rad=0.0, mu=mu), supports).ratio
-        name = f"Pulse of 0.5 g, flat roof, mu = {mu:g}, h = 1 m, b = 1.5 m"
+        name = f"Pulse of 0.5{NO_BREAK}g, flat roof, {equation('μ', mu)}, {size}"
         yield row("1", name, shear / 0.75, ratio)
 
 
 def _spectrum() -> Iterator[Verified]:
     zeta, dt = 0.05, 0.001
-    source = "1 + exp(-zeta pi / sqrt(1 - zeta^2)); sampled at 0.001 s"
+    source = "1 + exp(−ζ π / √(1 − ζ²)); sampled at 0.001 s"
     expected = 1.0 + math.exp(-zeta * math.pi / math.sqrt(1.0 - zeta**2))
     for period_s in (0.1, 1.0):
         spectrum = response_spectrum(np.ones(round(3.0 * period_s / dt)), dt, [period_s])
-        name = f"Unit step, T = {period_s:g} s, zeta = {zeta:g}"
+        name = f"Unit step, {equation('T', period_s, 's')}, {equation('ζ', zeta)}"
         yield Verified("DV-6", source, "S_a / a", "1", name, expected, float(spectrum[0]), 1e-5)
 
 
 def _filters() -> Iterator[Verified]:
-    source = "1 / sqrt(1 + (f / fc)^(2 n)), or with fc / f; middle of a sine of 200 s"
+    source = "1 / √(1 + (f / fc)^(2 n)), or with fc / f; middle of a sine of 200 s"
     dt, t = 0.005, np.arange(40001) * 0.005
     for kind, settings, sign in (
         ("High-pass", Processing(highpass_hz=_FILTER_HZ, order=_FILTER_ORDER), -1.0),

@@ -20,6 +20,7 @@ from solver.rivals import by_scipy
 from solver.sliding import model_selection, one_axis, two_axes
 from solver.sliding.model_selection import Model, Settings
 from solver.sliding.row import BlockRow, slide_row
+from solver.spaces import NO_BREAK, equation
 from solver.verification.checks import slip_checks
 from solver.verification.evidence import Verified
 from solver.verification.random_pairs import KINDS, UNBOUNDED, pair
@@ -134,10 +135,8 @@ def _circle() -> Iterator[Verified]:
     across = math.hypot(
         history.u_m[-1] - history.u_m[half], history.across_m[-1] - history.across_m[half]
     )
-    name = "Circular roof motion, 6 m/s2 at 1 Hz, mu = 0.3, flat roof, after 12 cycles"
-    source = (
-        "Steady state: speed sqrt(A^2 - (mu g)^2) / ω, radius speed / ω; 2000 samples per cycle"
-    )
+    name = f"Circular roof motion, 6 m/s² at 1 Hz, {equation('μ', mu)}, flat roof, after 12 cycles"
+    source = "Steady state: speed √(A² − (μ g)²) / ω, radius speed / ω; 2000 samples per cycle"
     final = math.hypot(float(history.v_mps[-1]), float(history.across_mps[-1]))
     yield Verified("TA-4", source, "Speed", "m/s", name, speed, final, AGREES)
     yield Verified("TA-4", source, "Diameter", "m", name, 2.0 * speed / omega, across, AGREES)
@@ -160,9 +159,10 @@ def _stop() -> Iterator[Verified]:
     stop = (c * w + along) / decay
     ahead = (w * w + (2.0 * c * w * along + along * along) / push**2) / (4.0 * decay) * push
     aside = -push * vx * (2.0 * c * w + along) / (push * (4.0 * c * c - push * push))
-    name = "Sliding block stops under a transverse acceleration of 2 m/s2, mu = 0.4, flat roof"
+    name = "Sliding block stops under a transverse acceleration of 2 m/s², "
+    name += f"{equation('μ', 0.4)}, flat roof"
     source = (
-        "(v (mu N + G cos ψ))' = G^2 - (mu N)^2, ψ = angle from drive G to v, and similar forms "
+        "(v (μ N + G cos ψ))' = G² − (μ N)², ψ = angle from drive G to v, and similar forms "
         "for displacement, from 0.06 s"
     )
     stop_s = history.events[-1].t_s - start * scene.dt_s
@@ -270,7 +270,7 @@ def _choices(triple: Motion) -> Iterator[Verified]:
         ("Three components", full, Model.TWO_AXES),
         ("Velocity-dependent friction", replace(full, friction=law), Model.SPEED_FRICTION),
     ):
-        name = f"{claim}: {triple.id}, {case.slope_deg:g}°, PPA = {case.ppa_g:g} g"
+        name = f"{claim}: {triple.id}, {case.slope_deg:g}°, {equation('PPA', case.ppa_g, 'g')}"
         chosen = float(model_selection.solve(scene, Settings()).model)
         yield Verified("TA-12", source, "Model chosen", "1", name, float(model), chosen, 0.0)
 
@@ -280,7 +280,10 @@ def _against_scipy(triple: Motion, samples: int) -> Iterator[Verified]:
     row = partial(Verified, "TA-13", source, "Position error / PRD", "1")
     case, part = MODEL_CASES[1], cut(triple, samples)
     scene = scene_of(part, case, coulomb(case.mu))
-    names = {t: f"Tolerance of 1 / {1.0 / t:,.0f}: {part.id}, {case}" for t in SCIPY_TOLERANCES}
+    names = {
+        t: f"Tolerance of 1{NO_BREAK}/{NO_BREAK}{1.0 / t:,.0f}: {part.id}, {case}"
+        for t in SCIPY_TOLERANCES
+    }
     compiled = {
         order: f"{solver}, compiled, relative tolerance 10⁻⁹: {part.id}, {case}"
         for solver, order in (("DOP853", 8), ("RK45", 5))

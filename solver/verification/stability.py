@@ -59,7 +59,7 @@ def link_map(record: Record, name: str, *, quick: bool) -> StabilityMap:
         for count in substeps.tolist()
     ]
     return StabilityMap(
-        title=f"{METHODS[name].title}: sub-step against stiffness",
+        title=f"{METHODS[name].title}:\nsub-step against stiffness",
         note=f"{record.name}. Line: 2 / ω with ω = √(g k). Above the line the explicit link is "
         "unstable, and the iterations of the implicit link may alternate between stick and slip. "
         "At the left, a soft link elongates by μ / k.",
@@ -93,7 +93,7 @@ def near_rest_maps(record: Record, name: str, *, quick: bool) -> Iterator[Stabil
     ):
         cells = [[[(case, {"substeps": count})] for case in cases] for count in substeps.tolist()]
         yield StabilityMap(
-            title=f"{METHODS[name].title}: sub-step against {quantity}",
+            title=f"{METHODS[name].title}:\nsub-step against {quantity}",
             note=f"{record.name}. {note}",
             x_label=label,
             x=x,
@@ -115,7 +115,7 @@ def step_limit_maps(record: Record, *, quick: bool) -> Iterator[StabilityMap]:
         of_rate = partial(Friction, mu_slow=slow, mu_fast=last, mu_static=slow)
         laws = [of_rate(rate_s_per_m=rate) for rate in rates.tolist()]
         yield StabilityMap(
-            title=f"This program in two axes: sampling interval against rate, μ {way}",
+            title=f"This program in two axes:\nsampling interval against rate, μ {way}",
             note=f"{record.name}, its samples at other intervals. {case.slope_deg:g}°, μ from "
             f"{slow:g} at rest to {last:g}, PPA = {case.ppa_g:g} g. Shading: the stated error. "
             "Hatched: the run exceeds its limit on steps.",

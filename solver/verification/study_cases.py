@@ -35,6 +35,7 @@ from solver.rivals import by_scipy
 from solver.rivals.methods import METHODS
 from solver.sliding import checked, one_axis, two_axes
 from solver.sliding.method import AxisScene, Method
+from solver.spaces import equation, with_minus
 from solver.verification.verification_motions import own_records, scale_to, triple_scale
 
 
@@ -51,7 +52,8 @@ class Case(NamedTuple):
         return math.radians(self.slope_deg)
 
     def __str__(self) -> str:
-        return f"{self.slope_deg:g}°, μ = {self.mu:g}, PPA = {self.ppa_g:g} g"
+        block = f"{with_minus(self.slope_deg)}°, {equation('μ', self.mu)}"
+        return f"{block}, {equation('PPA', self.ppa_g, 'g')}"
 
 
 # From small to large slip, with both signs of the slope; quick runs take the first ones.

@@ -20,11 +20,11 @@ from fixtures.spaces import spaced
 from fixtures.verify_run import only
 from report.manual import check_sections, manual_files
 from report.manual import work_figures as work
-from report.text import error_text, formula_text
-from report.text.formula_text import lettered
+from report.text import error_text
 from solver.model import Status
 from solver.rivals.methods import METHODS
 from solver.verification.evidence import Verified
+from solver.verification.study_cases import Case
 
 pytestmark = pytest.mark.skipif(
     numba.config.DISABLE_JIT, reason="each record takes minutes without compiled kernels"
@@ -149,7 +149,7 @@ def test_the_manual_has_cover_contents_heads_methods_and_machine(texts, verifica
         assert texts[int(sheet[1]) - 1].startswith(title)
     for method in METHODS.values():
         for text in (method.title, method.invalid_when, method.source):
-            assert lettered(text) in words
+            assert text in words
     for name in ("numpy", "numba", "weasyprint", "Processor", "Cores"):
         assert name in whole
     for path in ("/home", "/root"):
@@ -167,10 +167,10 @@ def test_the_manual_has_cover_contents_heads_methods_and_machine(texts, verifica
 @pytest.mark.nightly
 def test_every_check_and_the_papers_figures_are_printed_and_in_the_table(verification, words, made):
     for row in verification.checks:
-        assert f"{row.id}. Source: {lettered(row.source)}" in words
+        assert f"{row.id}. Source: {row.source}" in words
         line = (
-            f"{lettered(row.problem)} {row.quantity}"
-            + (f" [{lettered(row.unit)}]" if row.unit != "1" else "")
+            f"{spaced(row.problem)} {row.quantity}"
+            + (f" [{row.unit}]" if row.unit != "1" else "")
             + f" {error_text.ten_digits(row.expected)} {error_text.ten_digits(row.computed)} "
             + f"{error_text.scientific(row.error)} {error_text.scientific(row.tolerance)} PASS"
         )
@@ -226,13 +226,13 @@ def test_failed_checks_are_said_and_exit_1(verification, words_of_broken, words,
     count = len(verification.checks)
     assert words_of_broken.count(f"FAIL {count - 1} of {count} checks passed.") == 2
     row = verification.checks[1]
-    assert f"FAIL: {row.section}, {row.problem}, {row.quantity}" in words_of_broken
+    assert f"FAIL: {row.section}, {spaced(row.problem)}, {row.quantity}" in words_of_broken
     assert re.search(r" 1\.5 2\.5 × 10⁻¹ [^A-Z]* FAIL", words_of_broken)
     done, out = failed
     assert done.exit_code == 1
     row = broken.checks[1]
     assert done.stdout.startswith("FAIL: ")
-    assert f"  {row.section}: {row.problem}, {row.quantity}: expected" in done.output
+    assert f"  {row.section}: {spaced(row.problem)}, {row.quantity}: expected" in done.output
     assert "found 1.5 m, error 2.5e-01 exceeds" in done.output
     table = pd.read_csv(out / "verification.csv")
     assert (table["passed"] == "no").sum() == 1
@@ -286,10 +286,7 @@ def test_a_folder_at_fault_is_refused_before_any_run(tmp_path):
         (error_text.seconds, 0.0123, "12.3 ms"),
         (error_text.seconds, 5e-8, "50 ns"),
         (error_text.seconds, math.nan, "—"),
-        (lettered, "mu = tan(theta), -0.3 m/s2, v0 a-1", "μ = tan(θ), −0.3 m/s², v₀ a-1"),
-        (lettered, "multi-axial -g sqrt(a - b) >= pi", "multi-axial −g √(a − b) ≥ π"),
-        (formula_text.unbroken, "2°, μ = 0.4, PPA = 1.5 g, flat",
-         "2°, μ\xa0=\xa00.4, PPA\xa0=\xa01.5\xa0g, flat"),
+        (str, Case(-2.0, 0.4, 1.5), "−2°, μ = 0.4, PPA = 1.5 g"),
     ],
 )  # fmt: skip
 @pytest.mark.quick

@@ -168,7 +168,7 @@ def test_the_rounding_of_a_weight_that_presses_hard_is_within_the_bound():
 
 
 @pytest.mark.parametrize(
-    "kind", ["normal force near zero", "mu = tan(slope)", "velocity-dependent friction"]
+    "kind", ["normal force near zero", "μ = tan(slope)", "velocity-dependent friction"]
 )
 def test_the_tolerance_is_met_but_for_rounding(kind):
     for index in range(300):
@@ -180,7 +180,7 @@ def test_the_tolerance_is_met_but_for_rounding(kind):
 
 def test_dips_of_the_speed_are_seen_and_a_lost_axis_modelled():
     # The one of 900,000 pairs that was over its bound: w = 1e-13 m/s, its first term upwards.
-    assert pair("mu = tan(slope)", 56946).run().ratio < 1.0
+    assert pair("μ = tan(slope)", 56946).run().ratio < 1.0
     for number in every("second_axis_left_out"):
         solution = model_selection.solve(scene("second_axis_left_out", number))
         expected = SCENES["second_axis_left_out"][number]["prd_two_axes_m"]
