@@ -149,16 +149,16 @@ def _record_confirmations(sheet: Sheet, motions: Shaking, tell: Callable[[str], 
     for place, text in to_record(sheet.project, motions.hashes).items():
         if place in sheet.addresses:  # earlier workbooks do not have the cells
             texts[place] = text
-    new = cells(sheet, texts)
-    if not new:
+    positions = cells(sheet, texts)
+    if not positions:
         return False
-    where = f"{sheet.path}: {', '.join(position.address for position in new)}"
+    where = f"{sheet.path}: {', '.join(position.address for position in positions)}"
     try:
         with changing(sheet.path, keeps_copy=False) as change:
             # What was read, and not what somebody saved since, is what was confirmed.
             if change.book.sha256 != sheet.sha256 or not os.access(sheet.path, os.W_OK):
                 raise InputError("the workbook is read-only, or was saved in the meantime")
-            change.note(new)
+            change.note(positions)
     except (InputError, OSError) as error:
         tell(f"{where}: the confirmed inputs were not recorded: {error}")
         return False

@@ -202,7 +202,7 @@ class Runs:
 
 
 def _of(scenes: Collection[Hashable], known: Mapping[_Key, _T]) -> dict[_Key, _T]:
-    return {key: found for key, found in known.items() if not scenes or key[0] in scenes}
+    return {key: run for key, run in known.items() if not scenes or key[0] in scenes}
 
 
 def scene_key(array: Array) -> Hashable:

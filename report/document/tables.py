@@ -64,7 +64,7 @@ class Table:
     def heads(self) -> tuple[tuple[str, int, str, str], ...]:
         """Headings, with number of columns spanned, alignment and width."""
         columns = [replace(column, share=self._share(k)) for k, column in enumerate(self.columns)]
-        whole = sum(column.share for column in columns)
+        total_share = sum(column.share for column in columns)
         groups = [list(group) for _, group in groupby(columns, key=lambda c: c.head)]
         return tuple(
             (
@@ -72,7 +72,7 @@ class Table:
                 len(group),
                 "center" if len(group) > 1 else group[0].align,
                 # The renderer widens a column to its longest word.
-                f"{100.0 * sum(column.share for column in group) / whole:.2f}%",
+                f"{100.0 * sum(column.share for column in group) / total_share:.2f}%",
             )
             for group in groups
         )
@@ -80,8 +80,8 @@ class Table:
     def _share(self, k: int) -> float:
         """Return the share of a column: more where it has long names, for two lines of each."""
         share = self.columns[k].share
-        whole = (row for row in self.rows if not any(type(cell) is Wide for cell in row.cells))
-        cells = [_letters(row.cells[k]) for row in whole]
+        full_rows = (row for row in self.rows if not any(type(cell) is Wide for cell in row.cells))
+        cells = [_letters(row.cells[k]) for row in full_rows]
         longest = max(map(len, cells), default=0)
         # Names are in the first columns; what is longer than any name is a sentence.
         is_named = k < NAMED and self.columns[k].align == "left"
@@ -93,8 +93,8 @@ class Table:
     def body(self) -> Sequence[tuple[str, Sequence[tuple[str, str, int, str]]]]:
         """Rows as style and cells: text, marks after it, columns spanned, style."""
         aligns = [column.align for column in self.columns]
-        whole = NARROW_WORD if self.is_narrow else WHOLE_WORD
-        return [(row.kind, _placed(row.cells, aligns, whole)) for row in self.rows]
+        longest_word = NARROW_WORD if self.is_narrow else WHOLE_WORD
+        return [(row.kind, _placed(row.cells, aligns, longest_word)) for row in self.rows]
 
     @property
     def hold(self) -> str:
@@ -106,22 +106,22 @@ class Table:
 def _placed(
     cells: Sequence[str | Wide], aligns: Sequence[str], whole_word: int
 ) -> Sequence[tuple[str, str, int, str]]:
-    placed, at = [], 0
+    placed, place = [], 0
     for cell in cells:
         if isinstance(cell, Wide):
             placed.append((cell.text, "", cell.span, "left"))
-            at += cell.span
+            place += cell.span
             continue
         # Marks after a number hang outside the column, so that the digits stay aligned.
-        text = cell.rstrip("†‡") if aligns[at] == "right" else cell
+        text = cell.rstrip("†‡") if aligns[place] == "right" else cell
         longest = max(map(len, _letters(text).split()), default=0)
-        is_long = aligns[at] == "left" and longest > whole_word
-        style = f"{aligns[at]} long" if is_long else aligns[at]
+        is_long = aligns[place] == "left" and longest > whole_word
+        style = f"{aligns[place]} long" if is_long else aligns[place]
         placed.append((text, cell[len(text) :], 1, style))
-        at += 1
+        place += 1
     # A cell too many would move every number after it under another heading.
-    if at != len(aligns):
-        raise DefectError(f"a row of {at} columns in a table of {len(aligns)}: {cells[0]}")
+    if place != len(aligns):
+        raise DefectError(f"a row of {place} columns in a table of {len(aligns)}: {cells[0]}")
     return placed
 
 
@@ -149,7 +149,7 @@ A value that is `Wide` covers the columns that follow.
 
 def by_place(*heads: ColumnHead) -> Sequence[Column]:
     """Return columns for items that are rows of values: each takes the value at its place."""
-    return [(head, itemgetter(at)) for at, head in enumerate(heads)]
+    return [(head, itemgetter(place)) for place, head in enumerate(heads)]
 
 
 def headed(
@@ -161,10 +161,10 @@ def headed(
     A column is its heading and share; its alignment if that is not left, and its unit if any.
     """
 
-    def shown(head: str, share: float, align: str = "left", unit: str = "") -> ColumnHead:
+    def head_of(head: str, share: float, align: str = "left", unit: str = "") -> ColumnHead:
         return ColumnHead(head=head, share=share, align=align, unit=unit)
 
-    shown_columns = by_place(*(shown(*column) for column in columns))
+    shown_columns = by_place(*(head_of(*column) for column in columns))
     return listed(rows, shown_columns, kind=kind, whole_rows=whole_rows)
 
 
@@ -178,9 +178,9 @@ def listed(
     style: Callable[[Any], str] = lambda _: "",
 ) -> Table:
     """Return items as a table: each column says its heading and its value."""
-    units = [shown.units(fmt) for shown, *_ in columns]
+    units = [head.units(fmt) for head, *_ in columns]
     return Table(
-        columns=tuple(column for shown, *_ in columns for column in shown.columns(fmt)),
+        columns=tuple(column for head, *_ in columns for column in head.columns(fmt)),
         rows=tuple(
             TableRow(cells=_listed_cells(item, columns, units, fmt.none), kind=style(item))
             for item in items
@@ -195,7 +195,7 @@ def _listed_cells(
 ) -> tuple[str | Wide, ...]:
     cells: list[str | Wide] = []
     covered = 0
-    for (shown, value_of, *more), of_column in zip(columns, units, strict=True):
+    for (head, value_of, *functions), of_column in zip(columns, units, strict=True):
         if covered:
             covered -= len(of_column)
             continue
@@ -205,9 +205,9 @@ def _listed_cells(
             covered = value.span - len(of_column)
             cells.append(value)
         else:
-            mark, show = [function(item) for function in more] + ["", None][len(more) :]
+            mark, show = [function(item) for function in functions] + ["", None][len(functions) :]
             text = stamp(value) if isinstance(value, Verdict) else value
-            cells += shown.cells(text, none, of_column, mark, show)
+            cells += head.cells(text, none, of_column, mark, show)
     return tuple(cells)
 
 
@@ -246,11 +246,11 @@ def merged(table: Table, *heads: str, once: bool = False) -> Table:
     names = [k for k, column in enumerate(table.columns) if column.head in heads] or [0]
     rows, columns = [], list(table.columns)
 
-    def others(row: TableRow) -> tuple[object, ...]:
+    def unnamed_cells(row: TableRow) -> tuple[object, ...]:
         cells = enumerate(row.cells)
         return row.kind, *(c for k, c in cells if k not in names or isinstance(c, Wide))
 
-    for alike in grouped_by(table.rows, others).values():
+    for alike in grouped_by(table.rows, unnamed_cells).values():
         cells = list(alike[0].cells)
         # Those of one name beside each other: of a clearance both arrays.
         one_by_one = grouped_by(alike, lambda row: str(row.cells[names[0]]))
@@ -259,9 +259,9 @@ def merged(table: Table, *heads: str, once: bool = False) -> Table:
         for k in names if len(alike) > 1 else ():
             of_each = [joined([str(row.cells[k]) for row in one_by_one[name]]) for name in firsts]
             of_all = of_each if len(set(of_each)) > 1 else of_each[:1]
-            own = firsts if k == names[0] else [str(row.cells[k]) for row in alike if once]
-            cells[k] = said = ranged(own) or ", ".join(of_all)
-            room = min(0.1 * len(said), MOST_SHARE)
+            listed_names = firsts if k == names[0] else [str(row.cells[k]) for row in alike if once]
+            cells[k] = label = ranged(listed_names) or ", ".join(of_all)
+            room = min(0.1 * len(label), MOST_SHARE)
             columns[k] = replace(columns[k], share=max(columns[k].share, room))
         rows.append(replace(alike[0], cells=tuple(cells)))
     return replace(table, columns=tuple(columns), rows=tuple(rows))

@@ -203,8 +203,8 @@ class Gap:
     @property
     def name(self) -> str:
         """What it is called where it has no label."""
-        of = self.of
-        return f"clearance {of.number}" if of.is_given else f"{of.array} to {of.other}"
+        gap = self.of
+        return f"clearance {gap.number}" if gap.is_given else f"{gap.array} to {gap.other}"
 
     @property
     def middle(self) -> Point:

@@ -136,10 +136,10 @@ def _fits(was: Shape, moved: Shape) -> Iterator[Move]:
     """Yield the moves that bring an outline to another one, those that mirror it last."""
     if len(was.points) != len(moved.points):
         return
-    old, drawn = (np.array(shape.points) @ (1.0, 1.0j) for shape in (was, moved))
+    earlier, drawn = (np.array(shape.points) @ (1.0, 1.0j) for shape in (was, moved))
     y = drawn - drawn.mean()
     for is_mirrored in (False, True):
-        points = old.conj()[::-1] if is_mirrored else old
+        points = earlier.conj()[::-1] if is_mirrored else earlier
         x = points - points.mean()
         # Least squares, with each vertex of the one as the first of the other.
         size = (abs(x) ** 2).sum()

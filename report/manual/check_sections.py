@@ -66,11 +66,11 @@ def _results(verification: Verification) -> Iterator[tuple[str, str, int]]:
     if not math.isnan(exact_s := exact[TIME].median()):
         yield "Median time per run of the exact method", seconds(exact_s), 5
     if not math.isnan(times_longer):
-        most = percent(paper["PRD error [%]"].max())
-        said = f"{number(times_longer, 0)} times the run time (median), errors in PRD up to {most}"
-        yield "The paper's method with 64 sub-steps, same analysis cases", said, 5
+        up_to = f"errors in PRD up to {percent(paper['PRD error [%]'].max())}"
+        result = f"{number(times_longer, 0)} times the run time (median), {up_to}"
+        yield "The paper's method with 64 sub-steps, same analysis cases", result, 5
     yield "Failed runs, all methods", f"{work[TIME].isna().sum()} of {len(work)}", 5
-    failed, cells = (sum(of(sweep.failed) for sweep in maps) for of in (np.sum, np.size))
+    failed, cells = (sum(count(sweep.failed) for sweep in maps) for count in (np.sum, np.size))
     yield "Failed cells of the stability maps, other methods", f"{failed} of {cells}", 6
     if links:
         worst = max(links, key=lambda link: link.worst_percent)
@@ -89,12 +89,12 @@ def _results(verification: Verification) -> Iterator[tuple[str, str, int]]:
     # model.
     for roof in [roof for roof in verification.roofs if roof.is_recorded][:1]:
         best = roof.predictions[0]
-        by_height = (other for other in roof.predictions if other.name == BY_HEIGHT)
-        others = [f"; {other.name}: PRD {span(other, roof)} times" for other in by_height]
+        by_height = (fit for fit in roof.predictions if fit.name == BY_HEIGHT)
+        stated = [f"; {fit.name}: PRD {span(fit, roof)} times" for fit in by_height]
         yield (
             "Roof motion of a recorded building, computed from its ground motion",
             f"{best.name}: PRD {span(best, roof)} times that of the recorded roof motion, "
-            f"{number(100.0 * best.unexplained, 0)}% of the motion unexplained{''.join(others)}",
+            f"{number(100.0 * best.unexplained, 0)}% of the motion unexplained{''.join(stated)}",
             11,
         )
     for evidence in verification.models:

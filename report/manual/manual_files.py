@@ -152,7 +152,7 @@ def errors_by_version() -> Section:
         "manual/known-errors",
         "Known errors of earlier versions",
         errors=grouped(
-            {f"Through version {until}: {len(found)} errors": found for until, found in by_version},
+            {f"Through version {until}: {len(known)} errors": known for until, known in by_version},
             _ERRORS,
         ),
     )

@@ -84,7 +84,7 @@ def models(verification: Verification) -> Section:
     # One or none: a study is a tuple so that it can be left out.
     evidence = verification.models[0]
     study, jumping = evidence.study, model_study.JUMPING
-    told: Mapping[str, Any] = {name: _said(study.named(of)) for name, of in _NAMED.items()}
+    texts: Mapping[str, Any] = {name: _said(study.named(key)) for name, key in _NAMED.items()}
     made = len(study.motions) - study.n_recorded
     motions = (
         numbered(made, "generated motion") if made else "",
@@ -108,7 +108,7 @@ def models(verification: Verification) -> Section:
         pushed_caption=f"Distance from the initial position after 2{NO_BREAK}s: a sliding block "
         f"stops under an opposing acceleration of {model_study.PUSHED_BACK_G:g}{NO_BREAK}g; "
         f"kinetic μ = {jumping.mu_slow:g}, static μ = {jumping.mu_static:g}",
-        **told,
+        **texts,
         changes=listed(study.changes, _CHANGE, kind="compact"),
         pushed=listed(evidence.pushed.itertuples(), _PUSHED, kind="compact"),
     )
@@ -146,8 +146,8 @@ def building(verification: Verification) -> Section:
 
 def _ratios(roof: RoofComparison) -> str:
     """Return the ratios of the PRD of a recorded roof motion."""
-    found = stability_maps.computed(roof) if roof.is_recorded else ()
-    return "; ".join(f"{prediction.name}: {span(prediction, roof)}" for prediction in found)
+    predictions = stability_maps.computed(roof) if roof.is_recorded else ()
+    return "; ".join(f"{prediction.name}: {span(prediction, roof)}" for prediction in predictions)
 
 
 def span(prediction: RoofPrediction, roof: RoofComparison) -> str:

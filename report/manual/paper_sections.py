@@ -148,7 +148,7 @@ def _answer(study: DesignCurves) -> str:
     """Return the caption of the contours after the record, with what their arrow reads off."""
     least_mu = _least_mu(study)
     if math.isnan(least_mu):
-        said = f"No μ of the study limits the PRD to {_WANTED}."
+        caption = f"No μ of the study limits the PRD to {_WANTED}."
     else:
-        said = f"Arrow: a PRD of at most {_WANTED} requires μ of at least {number(least_mu, 3)}."
-    return f": contours of PRD against μ and θ at {_PPA} (Fig. 12). {said}"
+        caption = f"Arrow: a PRD of at most {_WANTED} requires μ of at least {number(least_mu, 3)}."
+    return f": contours of PRD against μ and θ at {_PPA} (Fig. 12). {caption}"

@@ -114,8 +114,8 @@ def _medians(runs: pd.DataFrame) -> Table:
 
 def _shown(runs: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Yield the runs of each setting that is shown, the first with the name of its method."""
-    for name, own in runs.groupby("method", sort=False):
-        groups = [group for _, group in own.groupby("setting", sort=False, dropna=False)]
+    for name, of_method in runs.groupby("method", sort=False):
+        groups = [group for _, group in of_method.groupby("setting", sort=False, dropna=False)]
         # Every other setting of a long sweep keeps the table short.
         for count, group in enumerate(groups[::2] if len(groups) > 5 else groups):
             yield "" if count else METHODS[str(name)].title, group

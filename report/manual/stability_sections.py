@@ -24,8 +24,8 @@ def stability(verification: Verification) -> Section:
         "Stability",
         by_chart={
             name: [
-                f"({count}) {of.note} Failed: {of.failed.sum()} of {of.failed.size} cells."
-                for count, of in maps
+                f"({count}) {sweep.note} Failed: {sweep.failed.sum()} of {sweep.failed.size} cells."
+                for count, sweep in maps
             ]
             for name, maps in by_chart.items()
         },

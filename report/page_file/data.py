@@ -44,12 +44,12 @@ def _motions(motions: Sequence[Motion]) -> dict[str, Any]:
     """Return the samples of all motions, to the last bit."""
     parts = [(motion.ax_mps2, motion.ay_mps2, motion.az_mps2) for motion in motions]
     samples = np.concatenate([part for each in parts for part in each])
-    whole = np.round(samples / STANDARD_GRAVITY_MPS2 * _PER_G)
+    counts = np.round(samples / STANDARD_GRAVITY_MPS2 * _PER_G)
     # To the last bit: the browser computes in this order, and must get the numbers of the package.
-    is_whole = np.array_equal(whole / _PER_G * STANDARD_GRAVITY_MPS2, samples)
+    is_whole = np.array_equal(counts / _PER_G * STANDARD_GRAVITY_MPS2, samples)
     if is_whole:
         # Differences are small: the lowest byte of each first, and the rest are nearly all zero.
-        steps = np.diff(whole.astype("<i4"), prepend=np.int32(0)).astype("<i4")
+        steps = np.diff(counts.astype("<i4"), prepend=np.int32(0)).astype("<i4")
         content = steps.view(np.uint8).reshape(-1, 4).T.tobytes()
     else:
         content = samples.astype("<f8").tobytes()

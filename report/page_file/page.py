@@ -55,8 +55,8 @@ def page(package: str, assessment: Assessment, fingerprint: str, results: bytes)
 
     Where it would be too large it computes nothing, and says so.
     """
-    given = data(assessment, results) if assessment.has_motions else ""
-    made = _page(package, assessment, fingerprint, given)
+    run_data = data(assessment, results) if assessment.has_motions else ""
+    made = _page(package, assessment, fingerprint, run_data)
     if len(made) <= MOST_BYTES:
         return made
     warnings.warn(
@@ -67,11 +67,11 @@ def page(package: str, assessment: Assessment, fingerprint: str, results: bytes)
     return _page(package, assessment, fingerprint, "")
 
 
-def _page(package: str, assessment: Assessment, fingerprint: str, given: str) -> bytes:
-    css, script = _css(), _script("file.js") if given else ""
+def _page(package: str, assessment: Assessment, fingerprint: str, run_data: str) -> bytes:
+    css, script = _css(), _script("file.js") if run_data else ""
     # Whatever is in the file: nothing is loaded, and no other style or script is obeyed.
     policy = f"default-src 'none'; style-src {_hash(css)}; font-src data:; base-uri 'none'"
-    if given:
+    if run_data:
         # Compiling WebAssembly needs this word of the policy; `eval` of a script stays forbidden.
         policy += f"; script-src {_hash(script)} 'wasm-unsafe-eval'"
     shades = {item.id: _shade(assessment, item.id) for item in assessment.arrays}
@@ -84,7 +84,7 @@ def _page(package: str, assessment: Assessment, fingerprint: str, given: str) ->
         "policy": f"{policy}; form-action 'none'",
         "css": Markup(css),
         "script": Markup(script),
-        "data": Markup(given),
+        "data": Markup(run_data),
         "most_mb": MOST_BYTES / 1e6,
         "sections": _sections(package, shades),
         "shades": SHADES,
@@ -97,13 +97,13 @@ def _script(name: str) -> str:
     modules: dict[str, str] = {}
 
     def add(name: str) -> None:
-        own = _OWN / name
-        text = (own if own.is_file() else _SHARED / name).read_text(encoding="utf-8")
-        for _, other in _IMPORT.findall(text):
-            if other not in modules:
-                add(other)
+        path = _OWN / name
+        text = (path if path.is_file() else _SHARED / name).read_text(encoding="utf-8")
+        for _, imported in _IMPORT.findall(text):
+            if imported not in modules:
+                add(imported)
         names = ", ".join(_EXPORTED.findall(text))
-        body = _IMPORT.sub(lambda found: _taken(*found.groups()), text)
+        body = _IMPORT.sub(lambda match: _taken(*match.groups()), text)
         # One classic script: a page opened as a file may not import modules from files.
         body = re.sub(r"^export ", "", body, flags=re.MULTILINE)
         # Those that it imports are there by now: each function runs where it stands.

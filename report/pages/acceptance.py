@@ -56,10 +56,10 @@ def lowest_between(
     With the motion, the period [s] and the component: the spectra shown are at more periods.
     """
     at_points = [row.found for row in acceptance.rows if row.is_ratio_to_target]
-    shown = [(*part.lowest, part.title) for part in spectra if not part.is_ground]
+    ratios = [(*part.lowest, part.title) for part in spectra if not part.is_ground]
     # Points of the limits are a grid: between them a spectrum may fall lower, and is said to.
-    least = min(shown, default=(math.inf, "", 0.0, ""))
-    return least if least[0] < min([*at_points, LEAST_MEAN]) else None
+    lowest = min(ratios, default=(math.inf, "", 0.0, ""))
+    return lowest if lowest[0] < min([*at_points, LEAST_MEAN]) else None
 
 
 def strength_table(package: PackageData) -> Table:

@@ -148,7 +148,7 @@ def _least(margin: Margin) -> str:
 
 
 def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
-    def least(margin: Margin) -> str:
+    def lowest(margin: Margin) -> str:
         if math.isnan(margin.minimum_mu):
             return "none"
         return f"≤ {_least(margin)}" if margin.is_beyond else _least(margin)
@@ -158,7 +158,7 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         (words("Array", 0.8), lambda margin: margin.array.id),
         (text("μ", "entered", package.mu_share),
          lambda margin: mu_words(margin.array.array.friction)),
-        (text("μ", "lowest", package.mu_share), least),
+        (text("μ", "lowest", package.mu_share), lowest),
         (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
         (required("Required at this μ", 0.9),
          lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m),
@@ -182,35 +182,34 @@ def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
     return listed(sums, columns, package.fmt, kind="compact")
 
 
-def _turned(found: Uncertainty, fmt: UnitFormat) -> str:
+def _turned(uncertainty: Uncertainty, fmt: UnitFormat) -> str:
     """Return what other angles of the horizontal pair give, as a clause."""
-    if not found.turned:
+    if not uncertainty.turned:
         return "the motion has one horizontal component, so its angle is not varied"
-    worst, used_m = found.worst, found.used_m
+    worst, used_m = uncertainty.worst, uncertainty.used_m
     angle, prd_m = f"{number(worst.angle_deg, 1)}°", worst.result.prd_m
-    give = f"rotating the horizontal pair to {len(found.turned)} more angles gives"
+    give = f"rotating the horizontal pair to {len(uncertainty.turned)} more angles gives"
     if math.isnan(prd_m):
         return f"{give} no displacement at {angle}: {worst.result.status.sentence}"
     if not used_m > 0.0:
         return f"{give} PRDs up to {fmt.both_up(prd_m)}"
-    smallest_m = min(run.result.prd_m for run in found.turned)
+    smallest_m = min(run.result.prd_m for run in uncertainty.turned)
     return (
         f"{give} {number(smallest_m / used_m, 2)} to {number(prd_m / used_m, 2)} times this PRD "
         f"(largest at {angle})"
     )
 
 
-def _reversed(found: Uncertainty, fmt: UnitFormat) -> str:
+def _reversed(uncertainty: Uncertainty, fmt: UnitFormat) -> str:
     """Return what a reversed vertical component gives, as a clause."""
-    if not found.motion.motion.has_vertical:
+    if not uncertainty.motion.motion.has_vertical:
         return "there is no vertical component to reverse"
-    if math.isnan(found.reversed_m):
+    if math.isnan(uncertainty.reversed_m):
         return "reversing the vertical component gives no displacement"
-    gives = f"reversing the vertical component gives {fmt.both_up(found.reversed_m)}"
-    used_m = found.used_m
-    return (
-        f"{gives}, {number(found.reversed_m / used_m, 2)} times this PRD" if used_m > 0 else gives
-    )
+    gives = f"reversing the vertical component gives {fmt.both_up(uncertainty.reversed_m)}"
+    if not uncertainty.used_m > 0:
+        return gives
+    return f"{gives}, {number(uncertainty.reversed_m / uncertainty.used_m, 2)} times this PRD"
 
 
 def _friction_table(package: PackageData, accuracy: Accuracy, percent: str) -> Table:

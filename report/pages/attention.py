@@ -24,8 +24,8 @@ def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[tuple
     for check in failed:
         yield Consequence.NG.value, sentence(check, us_first)
     # The verdict with a remedy depends on less friction as well.
-    if is_best_due and (found := remedies(assessment, may_run=may_run)).together:
-        yield "remedy", found.sentence
+    if is_best_due and (change := remedies(assessment, may_run=may_run)).together:
+        yield "remedy", change.sentence
     for check in assessment.open[len(failed) :]:
         yield check.consequence.value, sentence(check, us_first)
     if lacks := without_analysis(assessment):

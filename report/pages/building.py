@@ -97,8 +97,8 @@ def _range(means_m: Sequence[float]) -> str:
 def _modes(package: PackageData, components: Sequence[_Transferred]) -> Table:
     """Return the slowest modes of the building in each direction."""
     rows = []
-    for name, of in grouped_by(components, lambda item: item.name).items():
-        building, included = of[0].roof.building, max(item.roof.n_modes for item in of)
+    for name, items in grouped_by(components, lambda item: item.name).items():
+        building, included = items[0].roof.building, max(item.roof.n_modes for item in items)
         # One more than included: a reader sees what the first omitted mode would add.
         printed = min(max(SHOWN_MODES, included + 1), building.periods_s.size)
         rows += [(name, building, mode, mode < included) for mode in range(printed)]
@@ -135,13 +135,13 @@ def _peaks(package: PackageData, components: Sequence[_Transferred]) -> Table:
         # A motion need not have each component that another one has.
         return next((value(item) for item in components if item.name == name), math.nan)
 
-    columns: list[Column] = [(words("Motion", 1.2), lambda of: of[0].motion)]
+    columns: list[Column] = [(words("Motion", 1.2), lambda of_motion: of_motion[0].motion)]
     names = dict.fromkeys(component.name for component in components)
     for head, decimals, value in quantities:
         for name in names:
             value_of = partial(of_component, name=name, value=value)
             columns.append((plain(head, decimals, SHORT[name], 0.9), value_of))
-    columns.append((plain("Extended by", 1, "s"), lambda of: of[0].roof.pad_s))
+    columns.append((plain("Extended by", 1, "s"), lambda of_motion: of_motion[0].roof.pad_s))
     by_motion = grouped_by(components, lambda item: item.motion)
     return listed(by_motion.values(), columns, package.fmt, kind="compact", whole_rows=MOTION_ROWS)
 

@@ -147,8 +147,8 @@ def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, s
         # The row of a satisfied kind stands for all of that kind: its largest ratio.
         if check.is_satisfied and counts[check.id] > 1:
             subject += f" (of {counts[check.id]})"
-        found, limit = texts(check, us_first, is_both=False)
-        cells = check.title, subject, found, limit, _ratio(check), check.clause
+        pair = texts(check, us_first, is_both=False)
+        cells = check.title, subject, *pair, _ratio(check), check.clause
         rows.append(_row(*cells, check.verdict, _sheet(check, numbers, place)))
         under = " ".join(filter(None, (check.to_close, check.otherwise)))
         if under and sheet.has_remedies:
@@ -160,10 +160,10 @@ def condition_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, s
     """Return the conditions, each with what the project comes to if it is not met below."""
     us_first, rows = done.project.us_first, []
     for count, check in enumerate(sheet.conditions):
-        found, limit = texts(check, us_first, is_both=False)
+        found_text, limit_text = texts(check, us_first, is_both=False)
         title = f"{check.subject}: {lowered(check.title)}" if check.subject else check.title
-        found += f" ({check.note})" if check.note else ""
-        cells = title, found, f"{limit} ({check.clause})", check.actor.value
+        found_text += f" ({check.note})" if check.note else ""
+        cells = title, found_text, f"{limit_text} ({check.clause})", check.actor.value
         rows.append(_row(*cells, _sheet(check, numbers, f"{OPEN}{count}")))
         if check.otherwise:
             rows.append(_below(f"If not met, {lowered(check.otherwise)}", len(cells) + 1))
@@ -176,11 +176,11 @@ def all_checks(done: Assessment) -> Table:
     Those two have tables of their own, in the parts with the plan and with the motions.
     """
     us_first = done.project.us_first
-    others = (check for check in done.checks if check.id not in APART)
+    listed_checks = (check for check in done.checks if check.id not in APART)
     rows = []
-    for check in alike(others):
-        found, limit = found_and_limit(check, us_first)
-        cells = check.subject or "project", check.title, found, limit, _ratio(check), check.clause
+    for check in alike(listed_checks):
+        pair = found_and_limit(check, us_first)
+        cells = check.subject or "project", check.title, *pair, _ratio(check), check.clause
         rows.append(_row(*cells, check.verdict))
         if check.is_open and check.to_close:
             rows.append(_below(f"To close: {check.to_close}", len(cells) + 1))

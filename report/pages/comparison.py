@@ -56,14 +56,14 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
     limits = (*item.limits.prescriptive_checks, *item.limits.checks, *building)
     failed = [words(of_limit(limit)) for limit in limits if not limit.ok]
     if failed:
-        other = f"the prescriptive procedure is not permitted: {_reasons(package, failed)}"
+        status = f"the prescriptive procedure is not permitted: {_reasons(package, failed)}"
     elif analysis.value_m > given_m:
-        other = (
+        status = (
             "the limits of the prescriptive procedure are satisfied, but the analysis "
             "displacement exceeds the prescriptive displacement"
         )
     else:
-        other = f"the prescriptive displacement may be used instead ({package.part('limits')})"
+        status = f"the prescriptive displacement may be used instead ({package.part('limits')})"
     faults = _reasons(package, done.against_analysis(item))
     refused = f"the analysis procedure is not permitted: {faults}"
     parts: list[str] = []
@@ -73,7 +73,7 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
             parts.append("the largest PRD exceeds the prescriptive displacement and is used")
         return _sentences([*parts, refused])
     if math.isnan(item.design_m):
-        return _sentences(["no analysis displacement", other])
+        return _sentences(["no analysis displacement", status])
     n_above = sum(run.governing.prd_m > given_m for run in item.motions)
     above = f"{n_above} of {len(item.motions)} PRDs"
     if analysis.value_m > given_m:
@@ -89,14 +89,14 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
         parts.append("no floor applies because the analysis is peer reviewed")
     if not item.is_permitted:
         parts.append(refused)
-    return _sentences([*parts, other])
+    return _sentences([*parts, status])
 
 
 def _reasons(package: PackageData, limits: Sequence[str]) -> str:
     """Return the first two limits that do not permit a procedure, and where the others are."""
     count = len(limits) - 2
-    more = [f"{numbered(count, 'more limit')} in {package.part('limits')}"] if count > 0 else []
-    return "; ".join([*limits[:2], *more])
+    further = [f"{numbered(count, 'more limit')} in {package.part('limits')}"] if count > 0 else []
+    return "; ".join([*limits[:2], *further])
 
 
 def _sentences(parts: Sequence[str]) -> str:

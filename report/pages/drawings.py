@@ -22,9 +22,9 @@ Drawings = Mapping[str, Sequence[Any]]
 plan and its legend."""
 
 
-def _in_parts(items: Sequence[Any], most: int) -> Iterator[Sequence[Any]]:
-    for start in range(0, len(items), most):
-        yield items[start : start + most]
+def _in_parts(items: Sequence[Any], maximum: int) -> Iterator[Sequence[Any]]:
+    for start in range(0, len(items), maximum):
+        yield items[start : start + maximum]
 
 
 def draw_assessment(package: PackageData) -> Drawings:
@@ -49,7 +49,7 @@ def draw_assessment(package: PackageData) -> Drawings:
     }
 
 
-def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
+def draw_plotted(package: PackageData, evidence: Evidence) -> Drawings:
     """Return the drawings of spectra and of runs; none without motions."""
     from report.figures.charts import comparison
     from report.figures.spectrum_charts import spectra
@@ -57,10 +57,10 @@ def draw_plotted(package: PackageData, shown: Evidence) -> Drawings:
     if not package.assessment.has_motions:
         return {}
     us_first = package.fmt.us_first
-    roof = [part for part in shown.spectra if not part.is_ground]
-    ground = [part for part in shown.spectra if part.is_ground]
-    runs = list(zip(package.assessment.alike, shown.histories, strict=True))
-    others_m = {case.array.id: case.array.design_m for case in shown.cases}
+    roof = [part for part in evidence.spectra if not part.is_ground]
+    ground = [part for part in evidence.spectra if part.is_ground]
+    runs = list(zip(package.assessment.alike, evidence.histories, strict=True))
+    others_m = {case.array.id: case.array.design_m for case in evidence.cases}
     drawings: dict[str, Sequence[Any]] = {
         "comparison": [
             comparison(some, us_first, others_m)

@@ -14,14 +14,14 @@ def page(package: PackageData) -> Mapping[str, object]:
     """Return the record files with their hashes; what all files have alike is in a note."""
     rows = package.assessment.shaking.records
     alike = _alike(rows)
-    own = [name for name in _ALIKE if name not in alike]
+    differing = [name for name in _ALIKE if name not in alike]
     columns = (
         (words("Motion", 0.45), lambda row: row.motion_id),
         (words("Component", 0.68), lambda row: row.component),
-        *((words(name, 0.55), _ALIKE[name]) for name in own),
+        *((words(name, 0.55), _ALIKE[name]) for name in differing),
         (plain("Peak [g]", 4, share=0.5), lambda row: row.peak_g),
         (words("File", 1.04), lambda row: row.name),
-        (words("SHA-256", 4.15 - 0.55 * len(own)), lambda row: row.sha256),
+        (words("SHA-256", 4.15 - 0.55 * len(differing)), lambda row: row.sha256),
     )
     table = listed(rows, columns, package.fmt, kind="compact digest", whole_rows=MOTION_ROWS)
     return {
@@ -39,5 +39,5 @@ _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
 
 def _alike(rows: Sequence[RecordFile]) -> Mapping[str, str]:
     """Return what all files have alike, by name."""
-    shown = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
-    return {name: values.pop() for name, values in shown.items() if len(values) == 1}
+    values_by_name = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
+    return {name: values.pop() for name, values in values_by_name.items() if len(values) == 1}

@@ -92,15 +92,15 @@ def _origin(site: Site) -> tuple[str, ...]:
 def _ground_spectrum(package: PackageData) -> Mapping[str, str] | None:
     """Return the numbers of the design spectrum, where it is the target of ground motions."""
     site, t_l_s = package.data.site, package.data.target.t_l_s
-    found, ground = site.parameters, package.assessment.targets.ground
+    parameters, ground = site.parameters, package.assessment.targets.ground
     if not package.has_ground or ground.name == OWN:
         return None
-    if found.s_d1 is None or found.t_s is None or t_l_s is None:
+    if parameters.s_d1 is None or parameters.t_s is None or t_l_s is None:
         return None
     return {
         "clause": site.edition.clause("t_l"),
-        "t_0": f"{number(0.2 * found.t_s, 3)}{NO_BREAK}s",
-        "t_s": f"{number(found.t_s, 3)}{NO_BREAK}s",
+        "t_0": f"{number(0.2 * parameters.t_s, 3)}{NO_BREAK}s",
+        "t_s": f"{number(parameters.t_s, 3)}{NO_BREAK}s",
         "t_l": f"{t_l_s:g}{NO_BREAK}s",
     }
 

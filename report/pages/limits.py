@@ -40,18 +40,18 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     }
 
 
-def remedy_lines(assessment: Assessment, found: Remedies) -> Iterator[str]:
+def remedy_lines(assessment: Assessment, remedies: Remedies) -> Iterator[str]:
     """Yield the set of changes that is enough, then what would satisfy each check that is NG."""
-    if len(found.together) > 1:
-        yield found.sentence
-    for checks, own in grouped_by(found.own, lambda remedy: remedy.checks).items():
+    if len(remedies.together) > 1:
+        yield remedies.sentence
+    for checks, changes in grouped_by(remedies.own, lambda remedy: remedy.checks).items():
         titles = grouped_by(checks, lambda check: check.title)
-        names = (", ".join(filter(None, (title, subjects(of)))) for title, of in titles.items())
-        yield f"{'; '.join(names)}: {' '.join(each.sentence for each in own)}"
+        names = (", ".join(filter(None, (title, subjects(same)))) for title, same in titles.items())
+        yield f"{'; '.join(names)}: {' '.join(change.sentence for change in changes)}"
     failed = sum(check.verdict is Verdict.NG for check in assessment.checks)
-    if found.own and failed > MOST:
+    if remedies.own and failed > MOST:
         yield f"Searched for the {MOST} with the largest ratio of {failed} that are NG."
-    if found.own and not found.together:
+    if remedies.own and not remedies.together:
         yield "No combination of these changes is sufficient."
     if assessment.has_motions and (lacks := without_analysis(assessment)):
         yield f"{capitalized(lacks)}"

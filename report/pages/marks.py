@@ -26,10 +26,10 @@ UNVERIFIED = (
 )
 
 
-def joined(marks: str, more: str) -> str:
+def joined(marks: str, added: str) -> str:
     """Return marks, each once."""
     # A displacement and what follows from it may rest on one override.
-    return marks if more in marks else marks + more
+    return marks if added in marks else marks + added
 
 
 def prescriptive_key(array: ArrayAssessment) -> str:

@@ -108,7 +108,7 @@ def _motion(package: PackageData) -> Mapping[str, object]:
 def _other_weights(package: PackageData, array: Array) -> str:
     """Return the range of the weight over plan area of the other arrays; nothing without any."""
     fmt = package.fmt
-    weights = [other.weight_pa for other in package.data.arrays if other.id != array.id]
+    weights = [item.weight_pa for item in package.data.arrays if item.id != array.id]
     if not weights:
         return ""
     ends = [fmt.first(weight, Quantity.PRESSURE) for weight in (min(weights), max(weights))]
@@ -119,12 +119,12 @@ def _prescriptive(package: PackageData) -> Mapping[str, object]:
     """Return the prescriptive displacement and what it is computed from."""
     done, fmt, marks = package.assessment, package.fmt, package.marks
     rules, site, array = done.rules, package.data.site, done.governing
-    given, mark = array.prescriptive, marks.of("prescriptive_factor_in")
+    delta, mark = array.prescriptive, marks.of("prescriptive_factor_in")
     routes = alike(check for check in done.checks if check.id == "design")
     return {
         "sdc": site.sdc_text,
-        "prescriptive": fmt.both_up(given.value_m, marks.prescriptive(array)),
-        "is_low_category": given.governs is PrescriptiveBasis.LOW_CATEGORY,
+        "prescriptive": fmt.both_up(delta.value_m, marks.prescriptive(array)),
+        "is_low_category": delta.governs is PrescriptiveBasis.LOW_CATEGORY,
         "prescriptive_clause": marks.clause(prescriptive_key(array)),
         "factor_clause": marks.clause("prescriptive_factor_in"),
         "has_importance_in_separation": rules.importance_in_separation,
@@ -132,8 +132,8 @@ def _prescriptive(package: PackageData) -> Mapping[str, object]:
         "i_e": number(site.i_e, 2),
         # Below 0.4, the square of S_DS - 0.4 would rise again, the weaker the earthquake.
         "s_ds_or_least": number(max(site.s_ds, 0.4), 3),
-        "prescriptive_minimum": fmt.both_up(given.minimum_m, marks.of("prescriptive_minimum_in")),
-        "prescriptive_governs": given.governs,
+        "prescriptive_minimum": fmt.both_up(delta.minimum_m, marks.of("prescriptive_minimum_in")),
+        "prescriptive_governs": delta.governs,
         "by_routes": Markup(", ").join(
             Markup("{} {}").format(check.subject, stamp(check.verdict)) for check in routes
         ),
@@ -220,12 +220,12 @@ def _compared(check: Check, us_first: bool) -> tuple[str, Markup]:
     """
     is_left = check.id == "fire_pathway"
     both, first = texts(check, us_first), texts(check, us_first, is_both=False)
-    result, other = first if is_left else (both[1], first[0])
-    result, other = (each.removeprefix(f"{check.sense} ") for each in (result, other))
+    result, limit_text = first if is_left else (both[1], first[0])
+    result, limit_text = (part.removeprefix(f"{check.sense} ") for part in (result, limit_text))
     if not math.isfinite(check.ratio):
-        return result, Markup("; provided: {}, {}").format(other, stamp(check.verdict))
+        return result, Markup("; provided: {}, {}").format(limit_text, stamp(check.verdict))
     sign = ("≥" if is_left else "≤") if check.is_satisfied else ("<" if is_left else ">")
-    parts = sign, other, ratio(check.ratio), stamp(check.verdict)
+    parts = sign, limit_text, ratio(check.ratio), stamp(check.verdict)
     return result, Markup(" {} {}, D/C {}, {}").format(*parts)
 
 

@@ -112,28 +112,28 @@ def _ground_target(name: str) -> str:
     return "Target of ground motions: the two-period design response spectrum of ASCE 7, 11.4.6."
 
 
-def _departure(found: Departure) -> str:
+def _departure(departure: Departure) -> str:
     """Return where the mean of the motions misses its target, by how much, and what follows."""
-    first, *others = found.titles
+    first, *others = departure.titles
     likewise = f" ({'; '.join(others).lower()} likewise)" if others else ""
     hertz = f"{NO_BREAK}Hz"
-    place = f"{1.0 / found.period_s:.3g}{hertz}"
-    if found.is_short:
-        reaches, beyond = f"falls to {number(found.ratio, 2)}", "is below"
+    place = f"{1.0 / departure.period_s:.3g}{hertz}"
+    if departure.is_short:
+        reaches, beyond = f"falls to {number(departure.ratio, 2)}", "is below"
         effect = (
             "Weaker shaking results in smaller displacements. Scale or replace the motions, or "
             "justify the difference."
         )
     else:
-        reaches = f"reaches {digits_up(found.ratio, 3)}"
-        beyond = f"exceeds {number(found.maximum_excess, 2)} times"
+        reaches = f"reaches {digits_up(departure.ratio, 3)}"
+        beyond = f"exceeds {number(departure.maximum_excess, 2)} times"
         effect = "Displacements are not reduced for this excess."
-    where = f"from {1.0 / found.to_s:.3g} to {1.0 / found.from_s:.3g}{hertz}"
-    if found.from_s == found.to_s:
+    where = f"from {1.0 / departure.to_s:.3g} to {1.0 / departure.from_s:.3g}{hertz}"
+    if departure.from_s == departure.to_s:
         where = "there only"
     return (
-        f"{first}{likewise}: the mean of the motions {reaches} times the target ({found.target}) "
-        f"at {place}; it {beyond} the target {where}. {effect}"
+        f"{first}{likewise}: the mean of the motions {reaches} times the target "
+        f"({departure.target}) at {place}; it {beyond} the target {where}. {effect}"
     )
 
 

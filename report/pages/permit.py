@@ -94,11 +94,11 @@ def _open_checks(package: PackageData) -> Table:
     done, data = package.assessment, package.data
     rows = []
     for check in done.open:
-        found, limit = texts(check, data.us_first, is_both=False)
+        found_text, limit_text = texts(check, data.us_first, is_both=False)
         title = f"{check.subject}: {lowered(check.title)}" if check.subject else check.title
-        required_by = f"{limit} ({check.clause})" if check.clause else limit
+        required_by = f"{limit_text} ({check.clause})" if check.clause else limit_text
         mark = stamp(check.verdict) if check.verdict is Verdict.NG else ""
-        rows.append((*map(with_symbols, (title, found, required_by, check.actor.value)), mark))
+        rows.append((*map(with_symbols, (title, found_text, required_by, check.actor.value)), mark))
     heads = ("Open", 2.2), ("Found", 2.6), ("Required", 3.5), ("Who acts", 0.9), ("", 0.3, "center")
     return headed(*heads, rows=rows, kind="compact")
 

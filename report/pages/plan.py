@@ -107,8 +107,8 @@ def page(package: PackageData) -> Mapping[str, object]:
 def _some(names: Sequence[object]) -> str:
     """Return a list of names, cut where it gets long."""
     count = len(names) - _MOST_NAMES
-    more = f" and {count} more" if count > 0 else ""
-    return ", ".join(str(name) for name in names[:_MOST_NAMES]) + more
+    further = f" and {count} more" if count > 0 else ""
+    return ", ".join(str(name) for name in names[:_MOST_NAMES]) + further
 
 
 def _schedules(package: PackageData, beside: Schedule, fmt: UnitFormat) -> Mapping[str, object]:

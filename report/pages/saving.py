@@ -21,55 +21,55 @@ from report.text.units import number
 
 def without_analysis(assessment: Assessment) -> str:
     """Return what arrays take for lack of motions, and what an analysis could save; or nothing."""
-    found = saving(assessment)
-    if assessment.has_motions and not found.ids:
+    gain = saving(assessment)
+    if assessment.has_motions and not gain.ids:
         return ""
     why = "no motions are listed"
-    if found.lacks:
-        why = f"the motions do not permit an analysis ({'; '.join(found.lacks)})"
+    if gain.lacks:
+        why = f"the motions do not permit an analysis ({'; '.join(gain.lacks)})"
     fmt = UnitFormat(us_first=assessment.project.us_first)
-    saves = saving_words(found, Marks(assessment, has_daggers=False), fmt)
-    given = fmt.both_up(found.prescriptive_m)
-    return f"{why}, so the package uses the prescriptive displacement, {given}. {saves}"
+    saves = saving_words(gain, Marks(assessment, has_daggers=False), fmt)
+    prescriptive_text = fmt.both_up(gain.prescriptive_m)
+    return f"{why}, so the package uses the prescriptive displacement, {prescriptive_text}. {saves}"
 
 
-def saving_words(found: Saving, marks: Marks, fmt: UnitFormat) -> str:
+def saving_words(gain: Saving, marks: Marks, fmt: UnitFormat) -> str:
     """Return what an analysis could save, in a project without motions that permit one."""
     slope_clause = marks.clause("analysis_max_slope_deg")
-    alone = " without peer review" if found.is_lifted_by_review else ""
-    if not found.ids:
+    alone = " without peer review" if gain.is_lifted_by_review else ""
+    if not gain.ids:
         return (
             f"An analysis is not permitted{alone}, because the roof slope under all arrays exceeds "
             f"its limit ({slope_clause})."
         )
-    floor, clause = fmt.both_up(found.floor_m), marks.clause("analysis_floor")
+    floor, clause = fmt.both_up(gain.floor_m), marks.clause("analysis_floor")
     percent = number(100.0 * marks.assessment.rules["analysis_floor"], 0)
     share = f"{percent}%{marks.of('analysis_floor')} of the prescriptive displacement ({clause})"
-    if found.floor_m < found.prescriptive_m:
+    if gain.floor_m < gain.prescriptive_m:
         sentences = [
             f"With an analysis, the design displacement of "
-            f"{all_or(found.ids, len(marks.assessment.arrays))} could be as low as {floor} instead "
-            f"of {fmt.both_up(found.prescriptive_m)}: without peer review, the floor is {share}"
+            f"{all_or(gain.ids, len(marks.assessment.arrays))} could be as low as {floor} instead "
+            f"of {fmt.both_up(gain.prescriptive_m)}: without peer review, the floor is {share}"
         ]
     else:
         sentences = [f"Without peer review, an analysis would not reduce it: the floor is {share}"]
-    if found.n_short:
-        sentences.append(_at_floor(found, floor))
-    if found.others:
+    if gain.n_short:
+        sentences.append(_at_floor(gain, floor))
+    if gain.others:
         sentences.append(
             f"The roof slope exceeds the limit for an analysis{alone} ({slope_clause}) under "
-            f"{named(found.others, 'array')}"
+            f"{named(gain.others, 'array')}"
         )
     return ". ".join(sentences) + "."
 
 
-def _at_floor(found: Saving, floor: str) -> str:
+def _at_floor(gain: Saving, floor: str) -> str:
     """Return how many of the clearances that fail would be satisfied at the floor."""
-    if found.n_short == 1:
-        still = "" if found.n_satisfied else "still not "
+    if gain.n_short == 1:
+        still = "" if gain.n_satisfied else "still not "
         return f"At {floor}, the failing clearance would {still}be satisfied"
-    if found.n_satisfied == found.n_short:
+    if gain.n_satisfied == gain.n_short:
         count = "all"
     else:
-        count = f"{spelled(found.n_satisfied) if found.n_satisfied else 'none'} of the"
-    return f"At {floor}, {count} {counted(found.n_short, 'clearance')} that fail would be satisfied"
+        count = f"{spelled(gain.n_satisfied) if gain.n_satisfied else 'none'} of the"
+    return f"At {floor}, {count} {counted(gain.n_short, 'clearance')} that fail would be satisfied"

@@ -99,7 +99,7 @@ def _building(package: PackageData) -> Iterator[_Row]:
 
 def _hazard(data: ProjectInput) -> Iterator[_Row]:
     """Yield the accelerations of the site, and the periods of the spectrum and the building."""
-    site, building, found, clause = (
+    site, building, parameters, clause = (
         data.site,
         data.building,
         data.site.parameters,
@@ -119,9 +119,9 @@ def _hazard(data: ProjectInput) -> Iterator[_Row]:
         yield _row("Site coefficient, short period", "F_a", _given(site.f_a), clause("s_ms"))
         yield _row(f"Site coefficient, {long}", "F_v", _given(site.f_v), clause("s_ms"))
     of_maximum = (
-        (short, "S_MS", found.s_ms, site.s_ms_g, ("F_a", site.f_a), ("S_S", site.s_s_g),
+        (short, "S_MS", parameters.s_ms, site.s_ms_g, ("F_a", site.f_a), ("S_S", site.s_s_g),
          ("S_DS", site.s_ds_g)),
-        (long, "S_M1", found.s_m1, site.s_m1_g, ("F_v", site.f_v), ("S_1", site.s_1_g),
+        (long, "S_M1", parameters.s_m1, site.s_m1_g, ("F_v", site.f_v), ("S_1", site.s_1_g),
          ("S_D1", site.s_d1_g)),
     )  # fmt: skip
     for period, name, value_g, given_g, coefficient, mapped, design in of_maximum:
@@ -130,8 +130,8 @@ def _hazard(data: ProjectInput) -> Iterator[_Row]:
             f"MCE spectral acceleration, {period}", name, _g(value_g), clause("s_ms"), source
         )
     of_design = (
-        (short, "S_DS", found.s_ds, site.s_ds_g, "S_MS", found.s_ms),
-        (long, "S_D1", found.s_d1, site.s_d1_g, "S_M1", found.s_m1),
+        (short, "S_DS", parameters.s_ds, site.s_ds_g, "S_MS", parameters.s_ms),
+        (long, "S_D1", parameters.s_d1, site.s_d1_g, "S_M1", parameters.s_m1),
     )
     for period, name, value_g, given_g, maximum, maximum_g in of_design:
         source = _design_source(given_g, maximum, maximum_g)
@@ -150,7 +150,7 @@ def _hazard(data: ProjectInput) -> Iterator[_Row]:
     yield _row(
         "End of the spectral plateau",
         "T_S",
-        _given(found.t_s, unit=seconds),
+        _given(parameters.t_s, unit=seconds),
         clause("t_l"),
         "computed",
     )

@@ -35,8 +35,8 @@ def spectrum_table(spectra: Sequence[Spectra]) -> Table:
 
 def _spectrum_rows(part: Spectra) -> Iterator[Sequence[str | Wide]]:
     """Yield name, ordinates and style of each row; a component stays on one sheet."""
-    at = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
-    target, sa = part.target_g[at], part.sa_g[:, at]
+    indices = [int(np.argmin(np.abs(part.periods_s - period))) for period in PRINTED_S]
+    target, sa = part.target_g[indices], part.sa_g[:, indices]
     # With how many, since a component may be missing in some motions.
     mean = f"Mean of {numbered(len(part.ids), 'motion')} [g]", *_numbers(sa.mean(axis=0), 3)
     yield Wide(Markup("<b>{}</b>").format(part.title), 1 + len(PRINTED_S)), "total group"

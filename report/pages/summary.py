@@ -96,20 +96,20 @@ def _caption(package: PackageData) -> str:
     )
 
 
-def _enough(done: Assessment, found: Remedies) -> str:
+def _enough(done: Assessment, remedies: Remedies) -> str:
     """Return what is enough for a project that is NG, in a sentence; or that nothing found is."""
-    if found.own and not found.together:
+    if remedies.own and not remedies.together:
         return "None of the combinations of changes that were tried is sufficient."
-    return found.sentence
+    return remedies.sentence
 
 
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
     """Yield what another input comes to; of a condition its own row says it."""
     done = package.assessment
     # Of a rule set that the jurisdiction accepts no row says it, nor of friction that tests show.
-    told = {check.otherwise for check in done.checks if check.is_open}
+    stated = {check.otherwise for check in done.checks if check.is_open}
     for id in ("rule_set", VELOCITY_ROW):
-        if done.otherwise.get(id, "") not in (*told, ""):
+        if done.otherwise.get(id, "") not in (*stated, ""):
             yield done.otherwise[id]
     for case in evidence.cases:
         # What friction by velocity comes to is said above, of all arrays together.

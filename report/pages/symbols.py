@@ -113,8 +113,8 @@ def page(package: PackageData) -> Mapping[str, object]:
     """Return the list of symbols."""
     known = package.data.site.edition
     # The names of the force factors differ by edition of ASCE 7: a_p and R_p, C_AR and R_po.
-    others = {name for edition in EDITIONS.values() for name in edition.force_factors}
-    left_out = others.difference(known.force_factors)
+    factors = {name for edition in EDITIONS.values() for name in edition.force_factors}
+    left_out = factors.difference(known.force_factors)
     if not known.has_site_coefficients:
         left_out |= {"F_a", "F_v"}
     items = [

@@ -43,7 +43,7 @@ def summary(assessment: Assessment) -> Iterator[str]:
     rows = [_COLUMNS, *(_row(assessment, marks, item) for item in assessment.arrays)]
     # Without motions nothing is computed: a column of nones would look like a failure.
     if not assessment.has_motions:
-        rows = [(id, *others) for id, _, *others in rows]
+        rows = [(id, *cells) for id, _, *cells in rows]
     yield from aligned(rows)
     if assessment.is_overridden:
         yield MEANING

@@ -32,7 +32,7 @@ from solver.studies import fragility as fits
 def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
     """Return the section on an array: its fragilities, and the probabilities where asked for."""
     name = f"{result.plan.array.id}{on_building(results, result.plan.building, ', building ')}"
-    found = [state.fragility for state in result.states]
+    fragilities = [state.fragility for state in result.states]
     known = [state for state in result.states if state.fragility.fitted.is_known]
     return section(
         "study/array",
@@ -40,13 +40,13 @@ def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
         id=f"array-{slug(name)}",
         one=result,
         array=result.plan.array,
-        motions=found[0].capacities.intensity.size,
-        levels=found[0].levels.size,
-        censored=found[0].censored,
+        motions=fragilities[0].capacities.intensity.size,
+        levels=fragilities[0].levels.size,
+        censored=fragilities[0].censored,
         notes=list(_notes(result)),
         unknown=[state.name for state in result.states if not state.fragility.fitted.is_known],
         fragilities=_fragilities(results, result),
-        is_untested=any(math.isnan(of_state.p_value) for of_state in found),
+        is_untested=any(math.isnan(of_state.p_value) for of_state in fragilities),
         exported=_exported(results, result, known),
         is_centered=not math.isnan(result.center_m),
         quantiles=[f"{100 * share:g}%" for share in (uncertainty.LOW, uncertainty.HIGH)],
@@ -63,14 +63,16 @@ def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
 def _notes(result: ArrayStudyResult) -> Iterator[str]:
     """Yield what is said of censored capacities, and of those beyond which the PRD falls again."""
     for state in result.states:
-        found = state.fragility.capacities
-        if found.is_censored.any():
-            censored = f"{found.is_censored.sum()} of {found.intensity.size}"
-            yield f"{state.name}: {censored} capacities are censored."
-        if found.falls.any():
-            falls = f"for {found.falls.sum()} of {found.intensity.size} motions the PRD is below"
-            then = "again at a greater intensity; the first crossing counts."
-            yield f"{state.name}: {falls} the limit {then}"
+        capacities = state.fragility.capacities
+        censored, falls = capacities.is_censored.sum(), capacities.falls.sum()
+        count = capacities.intensity.size
+        if censored:
+            yield f"{state.name}: {censored} of {count} capacities are censored."
+        if falls:
+            yield (
+                f"{state.name}: for {falls} of {count} motions the PRD is below the limit again "
+                "at a greater intensity; the first crossing counts."
+            )
 
 
 def _fragilities(results: StudyResults, result: ArrayStudyResult) -> Table:

@@ -129,12 +129,12 @@ def _statistics(results: StudyResults, array_years: ArrayYears) -> Table:
     """Return the largest and the last distance, by when the array is put back."""
     rows = []
     for name, pair in array_years.statistics.items():
-        for which, of in zip(("largest", "last"), pair, strict=True):
-            distances = both(results, of.mean_m), both(results, of.p95_m)
-            rows.append((name, which, *distances, f"{digits_up(100 * of.beyond, 2)}%"))
-    named = (words("Put back", 1.6), words("Distance", 0.8))
-    found = (text("Mean", share=1.4), text("95%", share=1.4), text("Beyond clearance", share=1.1))
-    return listed(rows, by_place(*named, *found), kind="compact")
+        for which, distance in zip(("largest", "last"), pair, strict=True):
+            distances = both(results, distance.mean_m), both(results, distance.p95_m)
+            rows.append((name, which, *distances, f"{digits_up(100 * distance.beyond, 2)}%"))
+    names = (words("Put back", 1.6), words("Distance", 0.8))
+    heads = (text("Mean", share=1.4), text("95%", share=1.4), text("Beyond clearance", share=1.1))
+    return listed(rows, by_place(*names, *heads), kind="compact")
 
 
 def _by_friction(results: StudyResults, array_years: ArrayYears) -> Table:
@@ -159,9 +159,9 @@ def _verdict(array_years: ArrayYears) -> str:
         return f"The {prd} {within}: more {runs} do not change that."
     start = f"With the lowest of these coefficients the {prd} exceeds the clearance"
     if not math.isinf(array_years.more_runs):
-        more = numbered(int(array_years.more_runs), "more run")
-        shown = f"would show the μ = {required} that is required"
-        return f"{start}; {more} with this mean and scatter {shown}."
+        runs_text = numbered(int(array_years.more_runs), "more run")
+        result = f"would show the μ = {required} that is required"
+        return f"{start}; {runs_text} with this mean and scatter {result}."
     if math.isinf(array_years.required_mu):
         larger = "it does so with the largest too, so that no number of"
         return f"{start}; {larger} {runs} changes that."

@@ -55,11 +55,11 @@ def in_order(
     reverse.
     """
     is_met = _is_met(found.value, limit.value, is_at_least=is_at_least)
-    ways = [((found, limit), decimals + more) for more in range(_MOST_MORE + 1)]
-    safe, other = (demand, capacity) if is_at_least else (capacity, demand)
+    ways = [((found, limit), decimals + extra) for extra in range(_MOST_MORE + 1)]
+    safe, opposite = (demand, capacity) if is_at_least else (capacity, demand)
     # At the last, rounded so that it shows, whatever the digits: equal values alike.
     as_they_are = (entered(found.value), entered(limit.value)), decimals + 1
-    apart = (other(found.value), safe(limit.value)), decimals
+    apart = (opposite(found.value), safe(limit.value)), decimals
     for both, digits in (*ways, as_they_are if is_met else apart):
         rounded = (amount.rounding.of(amount.value / size, digits) for amount in both)
         if _is_met(*rounded, is_at_least=is_at_least) is is_met:
@@ -134,12 +134,12 @@ def amount_texts(
     quantity = limit.quantity
     if quantity is Quantity.ANGLE and is_both:
         degrees = in_order(found, limit, 2, is_at_least=is_at_least)
-        slope, most = (
-            replace(each, value=100.0 * math.tan(math.radians(each.value)))
-            for each in (found, limit)
+        slope, limit_slope = (
+            replace(amount, value=100.0 * math.tan(math.radians(amount.value)))
+            for amount in (found, limit)
         )
         # Ordered by themselves: degrees that differ may round to one percentage.
-        percents = in_order(slope, most, 1, is_at_least=is_at_least)
+        percents = in_order(slope, limit_slope, 1, is_at_least=is_at_least)
         texts = [f"{a}° ({b}%)" for a, b in zip(degrees, percents, strict=True)]
     elif quantity.has_systems and is_both:
         texts = [*compared_pairs(found, limit, quantity, us_first, is_at_least=is_at_least)]

@@ -84,13 +84,13 @@ class Quantity(Enum):
     @property
     def accepted(self) -> Mapping[str, float]:
         """Symbols accepted in the input, each with its size in SI."""
-        others = {
+        symbols = {
             Quantity.WEIGHT: WEIGHTS,
             Quantity.STIFFNESS: STIFFNESSES,
             Quantity.VELOCITY: VELOCITIES,
             Quantity.PRESSURE: PRESSURES,
         }
-        return others.get(self, LENGTHS)
+        return symbols.get(self, LENGTHS)
 
     @property
     def has_systems(self) -> bool:

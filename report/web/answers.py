@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import string
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any
 
@@ -27,6 +27,7 @@ from report.pages.clearance_tables import NumberedGap, numbered_gaps
 from report.pages.marks import Marks
 from report.text.counts import numbered
 from report.text.grouping import grouped_by
+from report.text.json_numbers import finite
 from report.text.names import ranged
 from report.text.unit_format import UnitFormat
 from report.text.units import Show, no_less, ratio
@@ -85,17 +86,7 @@ def answer(
         "arrays": {
             "caption": "Arrays: displacement",
             "heads": [head for head in _ARRAY_HEADS if assessment.has_motions or head != _MEAN],
-            "rows": _of_alike(
-                [
-                    {"text": item.id},
-                    *([_length(fmt, item.analysis.mean_m, no_less)] * assessment.has_motions),
-                    designs[item.id],
-                    _prescriptive(marks, item),
-                    {"text": _ratio(ratios[item.id], fmt)},
-                    None if is_provisional else stamp(assessment.array_verdict(item)),
-                ]
-                for item in arrays
-            ),
+            "rows": _array_rows(marks, designs, ratios, is_provisional),
         },
         "clearances": {
             "caption": "Clearances",
@@ -113,15 +104,26 @@ def answer(
 
 def _ratios(assessment: Assessment, gaps: Sequence[NumberedGap]) -> Mapping[str, float]:
     """Return the D/C of each clearance, and the largest of those of each array, by their keys."""
-    found = {f"#{gap.number}": gap.check.demand_capacity for gap in gaps}
+    ratios = {f"#{gap.number}": gap.check.demand_capacity for gap in gaps}
     for item in assessment.arrays:
         gap = assessment.governing_gap(item.id)
-        found[item.id] = gap.demand_capacity if gap else math.nan
-    return found
+        ratios[item.id] = gap.demand_capacity if gap else math.nan
+    return ratios
 
 
-def _of_alike(rows: Iterable[list[Cell | None]]) -> list[list[Any]]:
-    """Return rows, those that differ in their array alone as one with the names of all."""
+def _array_rows(
+    marks: Marks, designs: Mapping[str, Cell], ratios: Mapping[str, float], is_provisional: bool
+) -> list[list[Any]]:
+    """Return the arrays, those that differ in their name alone as one row with the names of all."""
+    assessment, fmt = marks.assessment, unit_format(marks.assessment)
+    rows: list[list[Cell | None]] = []
+    for item in assessment.arrays:
+        row: list[Cell | None] = [{"text": item.id}]
+        if assessment.has_motions:
+            row.append(_length(fmt, item.analysis.mean_m, no_less))
+        row += designs[item.id], _prescriptive(marks, item), {"text": _ratio(ratios[item.id], fmt)}
+        row.append(None if is_provisional else stamp(assessment.array_verdict(item)))
+        rows.append(row)
     alike = grouped_by(rows, lambda row: str(row[1:]))
     return [[_names(group), *group[0][1:]] for group in alike.values()]
 
@@ -142,9 +144,9 @@ def _worst(assessment: Assessment, is_provisional: bool) -> Mapping[str, Any] | 
     checks = failed(assessment) or clearances or by_ratio(satisfied)
     if not checks:
         return None
-    first, more = checks[0], len(failed(assessment)) - 1
-    others = f", and {numbered(more, 'more check')} NG" if more > 0 else ""
-    return _headline(f"{first.title} {first.subject}".rstrip() + others, first.ratio)
+    first, count = checks[0], len(failed(assessment)) - 1
+    further = f", and {numbered(count, 'more check')} NG" if count > 0 else ""
+    return _headline(f"{first.title} {first.subject}".rstrip() + further, first.ratio)
 
 
 def _headline(text: str, value: float) -> Mapping[str, Any]:
@@ -167,27 +169,27 @@ def _reasons(assessment: Assessment) -> Iterator[Mapping[str, Any]]:
         level, text = group[0]
         parts = list(map(words, _joined_by(assessment, joined[text]))) if text in joined else []
         if len(group) > 1:
-            parts = [each for _, each in group]
+            parts = [warning for _, warning in group]
             text += f", and {numbered(len(group) - 1, 'more warning')} in this column"
         yield {"level": level, "text": text, "parts": parts}
 
 
-def _about(found: tuple[str, str]) -> str:
+def _about(line: tuple[str, str]) -> str:
     """Return what is said as one: warnings on a column of the workbook, and all else by itself."""
-    level, text = found
+    level, text = line
     return text.partition(":")[0].rstrip(string.digits) if level == "warning" else text
 
 
 def _joined_by(assessment: Assessment, joined: Check) -> Sequence[Check]:
     """Return the checks that are listed as one, the worst first; none of a single one."""
-    found = [
+    parts = [
         check
         for check in assessment.checks
         if (check.id, check.verdict) == (joined.id, joined.verdict)
         and set(check.places) <= set(joined.places)
     ]
     # Of two without any capacity, that which lacks more.
-    return sorted(found, key=size, reverse=True) if len(found) > 1 else []
+    return sorted(parts, key=size, reverse=True) if len(parts) > 1 else []
 
 
 def _design(marks: Marks, item: ArrayAssessment, is_provisional: bool) -> Cell:
@@ -263,8 +265,8 @@ def _tips(marks: Marks, designs: Mapping[str, Cell], gaps: Sequence[NumberedGap]
             if known is None or not gap.check.demand_capacity <= known.check.demand_capacity:
                 worst[name] = gap
     for name, gap in worst.items():
-        other = gap.check.across_from(name)
-        tips[name] = f"{tips.get(name, name)}, D/C {_gap_ratio(gap, fmt)} to {other}"
+        across = gap.check.across_from(name)
+        tips[name] = f"{tips.get(name, name)}, D/C {_gap_ratio(gap, fmt)} to {across}"
     return tips
 
 
@@ -298,11 +300,6 @@ def _whole(assessment: Assessment) -> str:
     """Return which models the values are of."""
     if not assessment.has_motions:
         return "Prescriptive procedure, as in the package: no motions are entered."
-    models = {run.solution.model for a in assessment.arrays for m in a.motions for run in m.runs}
+    models = {run.solution.model for item in assessment.arrays for run in item.runs}
     names = ", ".join(f"{model.title} ({int(model)})" for model in sorted(models))
     return f"Full model, as in the package. Models of the runs: {names}."
-
-
-def finite(value: float) -> float | None:
-    """Return a number, or none for NaN and infinity, which JSON does not have."""
-    return value if math.isfinite(value) else None

@@ -80,7 +80,9 @@ def plan(
     fmt = unit_format(assessment)
     # Provisional values have none.
     has_verdicts = verdict(Verdict.OK) is not None
-    wide_px, more_px = _sheet_px(room_px)
+    # The widest sheet that there is room for; in steps, so that it stays while a window is resized.
+    steps = max(room_px - _LEAST_PX, 0) // _STEP_PX
+    wide_px = _LEAST_PX + steps * _STEP_PX
     tall_px = min(max(_TALLER * wide_px, _TALL_PX[0]), _TALL_PX[1])
     wide, tall, key = wide_px / _PX, tall_px / _PX, _KEY_PX / _PX
     size = PlanSize(wide=wide, tall=tall, key_wide=wide, key_tall=key, is_screen=True)
@@ -98,20 +100,13 @@ def plan(
             ),
         ],
         "size_px": [round(paper.wide * _PX), round(paper.tall * _PX)],
-        "rooms_px": [0 if wide_px == _LEAST_PX else wide_px, more_px],
+        "rooms_px": [wide_px if steps else 0, wide_px + _STEP_PX],
         "drawn": Markup("".join(_elements(paper, ratios))),
     }
 
 
 SHADES = (0.5, 0.75, 0.9, 1.0)
 """D/C up to which each shade goes; one more is above the last."""
-
-
-def _sheet_px(room_px: int) -> tuple[int, int]:
-    """Return the width of the widest sheet that there is room for, and from where on none is."""
-    # In steps: while a window is resized the page keeps its sheet.
-    steps = max(room_px - _LEAST_PX, 0) // _STEP_PX
-    return _LEAST_PX + steps * _STEP_PX, _LEAST_PX + (steps + 1) * _STEP_PX
 
 
 def _without_clearance(near: PlanNeighbor, fmt: UnitFormat) -> str:

@@ -20,11 +20,11 @@ from report.assessment.support.response_surface import ResponseSurface, surface
 from report.drawing.sheet import unit_format
 from report.runs import MotionRun, OrientedRun
 from report.text.grouping import ids_by
+from report.text.json_numbers import finite
 from report.text.names import ranged
 from report.text.typed_letters import cut
 from report.text.unit_format import UnitFormat
 from report.text.units import Unit, no_less, number
-from report.web.answers import finite
 from report.web.run_forces import Slip, run_forces, slips_of, with_jumps
 from solver.errors import InputError
 from solver.model import Floats, Scene, SlideHistory, Status
