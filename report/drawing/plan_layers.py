@@ -183,6 +183,7 @@ def plan_drawing(assessment: Assessment) -> PlanDrawing:
     low = extent.x_from_m / unit.si - fringe, min(foot, extent.y_from_m / unit.si - fringe)
     high = max(ends) + height, extent.y_to_m / unit.si + fringe
     long_in, tall_in = WINDOW_IN
+    # The window of the layout shows all of it, and at a scale that is on a scale ruler.
     min_scale = max((high[0] - low[0]) / long_in, (high[1] - low[1]) / tall_in) * unit.si
     scale = round_scale(min_scale, is_feet)
     return PlanDrawing(

@@ -257,6 +257,7 @@ def _take_out(change: WorkbookChange, name: str) -> list[str]:
             rows.update(change.rows(key, column, name))
         for row in rows:
             is_drawn = key == "clearances" and change.cell(key, row, "source").shown == DRAWING
+            # What a drawing gave goes with it: only what was typed is a loss, and is told.
             typed = "" if key == "outlines" or is_drawn else _typed(change, key, row, set())
             if typed:
                 lost.append(f"{change.position(key, row, columns[0]).address}: {typed}")

@@ -277,6 +277,7 @@ def _neglected_table(package: PackageData) -> Table:
 
 def _neglected(array: ArrayAssessment) -> Iterator[_Neglected]:
     solutions = [run.solution for run in array.runs]
+    # The most complete model is its own next one.
     neglected = sorted(
         {solution.next_model for solution in solutions if solution.next_model > solution.model}
     )

@@ -99,6 +99,7 @@ def study_xlsx(
         *added,
     ):
         sheet = book.add_worksheet(title)
+        # &R: at the right of the header.
         sheet.set_header(f"&R{SUPPORTING}" if results.years else "")
         sheet.write_row(0, 0, head, head_format)
         for number, row in enumerate(rows, start=1):
@@ -188,6 +189,7 @@ def _dispersions(results: StudyResults, result: ArrayStudyResult, state: LimitSt
     if not (is_exportable(results) and state.fragility.fitted.is_known):
         return [math.nan] * (len(NAMES) + 1)
     total = math.nan if is_refused(results) else exported(results, result, state).beta
+    # 0 is a part that is not included; NaN prints as none.
     return [*(part.beta or math.nan for part in dispersions(results, result, state)), total]
 
 

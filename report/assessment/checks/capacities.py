@@ -72,6 +72,7 @@ def _provided(value: float | None, required: float, quantity: Quantity) -> Mappi
         "sense": Sense.AT_LEAST if has_limit else Sense.STATED,
         # False for NaN: nothing is enough for a displacement that is not known.
         "is_satisfied": value is not None and value >= required,
+        # What is not entered may be there, and is to be shown; what is too small is NG.
         "consequence": Consequence.CONDITION if value is None else Consequence.NG,
     }
 

@@ -139,6 +139,7 @@ def _outcome(status: Status, runs: list[OrientedRun], us_first: bool) -> str:
 
 
 def _tipping(item: ArrayAssessment) -> Check:
+    # Moments about the lower edge of a base b wide: V at the height c against N at b/2.
     return Check(
         id="tipping",
         title="V/N divided by the tipping limit b/(2c)",

@@ -33,6 +33,7 @@ def of_building(data: ProjectInput, rules: RuleSet) -> Iterator[Check]:
 def building_limits(data: ProjectInput, rules: RuleSet) -> tuple[Limit, ...]:
     """Return the limits on the building, of the solver."""
     categories = list(type(data.site.risk_category))
+    # The solver has risk categories as numbers, 1 for I.
     return building_checks(
         rules,
         risk_category=categories.index(data.site.risk_category) + 1,

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from solver.sliding.row import BlockRow
 
 
+# I_p is 1.0 or 1.5 (ASCE 7, 13.1.3).
 ImportanceCell = Annotated[float, Field(ge=1.0, le=1.5)]
 MuCell = Annotated[float, Field(ge=0.0, le=MOST_MU)]
 RateCell = Annotated[float, Field(gt=0.0, le=MOST_RATE_S_PER_M)]

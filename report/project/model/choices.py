@@ -97,6 +97,7 @@ class SiteClass(StrEnum):
     C = "C"
     CD = "CD"
     D = "D"
+    # Where the soil is not known: F_a is then at least 1.2 (ASCE 7-16, 11.4.4).
     D_DEFAULT = "D (default)"
     DE = "DE"
     E = "E"

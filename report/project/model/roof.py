@@ -66,5 +66,6 @@ class Clearance(Frozen):
     object: Id
     direction: Direction
     provided_m: NotNegative
+    # 0 is none required; None is not stated, which is an open condition.
     pathway_m: NotNegative | None = None
     source: ClearanceSource | None = None
