@@ -196,7 +196,7 @@ _GOVERNING_HEADS = headed(
 )  # fmt: skip
 _CONDITION_HEADS = headed(
     ("Condition", 2.4), ("Found", 2.6), ("Required (code section)", 3.1),
-    ("Who acts", 0.95), ("Sheet", 0.45, "right"), kind="compact",
+    ("Action by", 0.95), ("Sheet", 0.45, "right"), kind="compact",
 )  # fmt: skip
 _ALL_HEADS = headed(
     ("Item", 0.9), ("Check", 2.6), ("Found", 2.5), ("Required", 2.35), ("Ratio", 0.5, "right"),

@@ -99,7 +99,13 @@ def _open_checks(package: PackageData) -> Table:
         required_by = f"{limit_text} ({check.clause})" if check.clause else limit_text
         mark = stamp(check.verdict) if check.verdict is Verdict.NG else ""
         rows.append((*map(with_symbols, (title, found_text, required_by, check.actor.value)), mark))
-    heads = ("Open", 2.2), ("Found", 2.6), ("Required", 3.5), ("Who acts", 0.9), ("", 0.3, "center")
+    heads = (
+        ("Open", 2.2),
+        ("Found", 2.6),
+        ("Required", 3.5),
+        ("Action by", 0.9),
+        ("", 0.3, "center"),
+    )
     return headed(*heads, rows=rows, kind="compact")
 
 

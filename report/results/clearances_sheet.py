@@ -52,7 +52,7 @@ GAPS = SheetLayout(
         SheetColumn("array", "Array", lambda row: row.gap.clearance.array),
         SheetColumn("object", "Object", lambda row: row.gap.clearance.object),
         SheetColumn("direction", "Direction", lambda row: row.gap.clearance.direction),
-        SheetColumn("neighbor", "Kind", lambda row: row.gap.neighbor),
+        SheetColumn("neighbor", "Type", lambda row: row.gap.neighbor),
         SheetColumn("governing", "Governing array", lambda row: row.gap.governing_array),
         up_column("design_m", "Design [in]", lambda row: row.gap.design_m, 1, "={largest}",
             is_always=True),
@@ -63,10 +63,10 @@ GAPS = SheetLayout(
             is_always=True),
         up_column("required_m", "Required [mm]", lambda row: row.gap.required_m, 0, is_always=True),
         SheetColumn("provided_m", "Provided [in]", lambda row: row.gap.provided_m, is_input=True),
-        SheetColumn("basis", "Distance from", lambda row: row.gap.basis),
+        SheetColumn("basis", "Clearance source", lambda row: row.gap.basis),
         SheetColumn("demand_capacity", "D/C", _ratio, 2, _RATIO, is_always=True),
         SheetColumn("verdict", "Verdict", lambda row: row.gap.verdict, formula=_OK, is_always=True),
-        up_column("by_roofslip_m", "Required by Roofslip [in]", lambda row: row.gap.required_m, 1),
+        up_column("by_roofslip_m", "Required, as reported [in]", lambda row: row.gap.required_m, 1),
         SheetColumn("difference", "Difference [in]", lambda _: 0.0, 4, _DIFFERENCE),
         SheetColumn("rule_factor", "Separation / displacement", lambda row: row.rule_factor, 2,
             is_input=True),
@@ -96,8 +96,9 @@ def write_clearances(pages: Pages, assessment: Assessment, inputs: InputCells) -
         GAPS,
         rows,
         "Clearances",
-        f"{assessment.rules.name}. From the Design worksheet; between two arrays the larger "
-        "displacement governs. The factor includes I_e or I_p if the rule set applies it here."
+        f"{assessment.rules.name}. Calculated from the Design worksheet; between two arrays the "
+        "larger displacement governs. The factor includes I_e or I_p if the rule set applies it "
+        "here."
         + (f" {MEANING}." if assessment.is_overridden else ""),
     )
     return [row.item for row in rows]

@@ -138,20 +138,20 @@ def _inputs(assessment: Assessment) -> Iterator[_Input]:
     use = "Prescriptive displacement, interconnection strength"
     yield _Input("s_ds_g", "S_DS [g]", site.s_ds, use, decimals=4)
     yield _Input("i_e", "Importance factor I_e", site.i_e, of_i_e)
-    use = "Rule set: 1.1 x mean or 1.1 x largest, by the number of motions"
+    use = "Per rule set: 1.1 x mean or 1.1 x largest, depending on the number of motions"
     yield _Input("statistic", "Design value statistic", asked, use)
-    yield _Input("peer_reviewed", "Peer review", reviewed, "Yes removes the floor")
-    yield provision("analysis_factor", "Analysis factor", "On the mean or the largest peak")
-    yield provision("analysis_floor", "Floor / prescriptive", "Without peer review")
-    use = "Minimum number of motions for 1.1 x mean"
-    yield provision("analysis_mean_motions", "Motions for a mean", use, 0)
-    use = "Minimum number of motions for 1.1 x largest"
-    yield provision("analysis_min_motions", "Motions for the largest", use, 0)
+    yield _Input("peer_reviewed", "Peer review", reviewed, "With Yes, the floor does not apply")
+    yield provision("analysis_factor", "Analysis factor", "Applied to the mean or the largest PRD")
+    yield provision("analysis_floor", "Floor / prescriptive", "Applies without peer review")
+    use = "Number of motions required for 1.1 x mean"
+    yield provision("analysis_mean_motions", "Minimum motions, mean", use, 0)
+    use = "Number of motions required for 1.1 x largest"
+    yield provision("analysis_min_motions", "Minimum motions, largest", use, 0)
     yield _Input(
         "plain_mean_motions",
-        "Motions for a mean without factor",
+        "Minimum motions, mean without factor",
         float(MEAN_WITHOUT_FACTOR_MOTIONS),
-        "Minimum number of motions for the mean",
+        "Number of motions required for the mean",
         decimals=0,
     )
     yield provision("interconnection_sds", "Interconnection / (S_DS W1)", strength)
@@ -221,7 +221,7 @@ DESIGN = SheetLayout(
             formula=_STATISTIC),
         SheetColumn("analysis_factor", "Analysis factor", lambda row: row.analysis_factor, 2,
             _FACTOR),
-        up_column("computed_m", "Computed [in]", lambda row: row.item.analysis.value_m, 1,
+        up_column("computed_m", "Analysis [in]", lambda row: row.item.analysis.value_m, 1,
             _COMPUTED, is_always=True),
         SheetColumn("floor_share", "Floor / prescriptive", lambda row: row.floor_share, 2,
             _FLOOR_SHARE),
@@ -249,7 +249,7 @@ DESIGN = SheetLayout(
             is_input=True),
         SheetColumn("n_motions", "Number of motions", lambda row: row.item.analysis.n_motions, 0,
             "=COUNT({peaks})"),
-        up_column("by_roofslip_m", "Design by Roofslip [in]", lambda row: row.item.design_m, 1),
+        up_column("by_roofslip_m", "Design, as reported [in]", lambda row: row.item.design_m, 1),
         SheetColumn("difference", "Difference [in]", lambda _: 0.0, 4, _DIFFERENCE),
     ),
     last_printed="verdict",
@@ -258,8 +258,9 @@ DESIGN = SheetLayout(
 
 # What the sheet follows from, with motions and without.
 _FROM = {
-    True: "From the Peaks, any direction, and Inputs worksheets.",
-    False: "From the Inputs worksheet. No motions are entered; the displacement is prescriptive.",
+    True: "Calculated from the Peaks (any direction) and Inputs worksheets.",
+    False: "Calculated from the Inputs worksheet. No motions are entered; the displacement is "
+    "prescriptive.",
 }
 
 
@@ -283,9 +284,9 @@ def write_design(
         DESIGN,
         rows,
         "Design displacement",
-        f"{assessment.rules.name}. {_FROM[assessment.has_motions]} Other requirements, those that "
-        "need other runs or the plan, are those of the report. Columns right of the verdict do "
-        "not print." + (f" {MEANING}." if assessment.is_overridden else ""),
+        f"{assessment.rules.name}. {_FROM[assessment.has_motions]} Other requirements need other "
+        "runs or the plan and are not recalculated. Columns to the right of the verdict do not "
+        "print." + (f" {MEANING}." if assessment.is_overridden else ""),
     )
     return [row.item for row in rows]
 

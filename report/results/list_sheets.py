@@ -84,15 +84,16 @@ RUNS = SheetLayout(
             lambda row: row.run.excursion_m(Direction.ACROSS)),
         SheetColumn("t_prd_s", "Time of PRD [s]", lambda row: row.run.result.t_prd_s),
         SheetColumn("n_stops", "Stops", lambda row: row.run.result.n_stops),
-        SheetColumn("peak_speed_mps", "Largest velocity [in/s]",
+        SheetColumn("peak_speed_mps", "Peak velocity [in/s]",
             lambda row: row.run.result.peak_speed_mps),
-        SheetColumn("n_min_g", "Minimum N/(m g)", lambda row: row.run.result.n_min_g),
+        SheetColumn("n_min_g", "Minimum N/W", lambda row: row.run.result.n_min_g),
         SheetColumn("friction_demand", "Friction demand",
             lambda row: row.run.solution.friction_demand),
         SheetColumn("rung", "Model", lambda row: _model(row.run.solution.model)),
-        SheetColumn("reason", "Reason", lambda row: row.run.solution.reason),
-        SheetColumn("next_rung", "Next model", lambda row: _model(row.run.solution.next_model)),
-        SheetColumn("next_effect_m", "Effect of next model [in]",
+        SheetColumn("reason", "Reason for model", lambda row: row.run.solution.reason),
+        SheetColumn("next_rung", "More complete model",
+            lambda row: _model(row.run.solution.next_model)),
+        SheetColumn("next_effect_m", "Effect of more complete model [in]",
             lambda row: row.run.solution.next_effect_m),
         SheetColumn("error_m", "Error bound [in]", lambda row: row.run.result.error_m),
         SheetColumn("status", "Outcome", lambda row: row.run.result.status.sentence),
@@ -123,9 +124,9 @@ _MOTIONS = (
     SheetColumn("pgd_m", "PGD [m]", lambda row: row.measures.pgd_m),
     SheetColumn("arias_mps", "Arias intensity [m/s]", lambda row: row.measures.arias_mps),
     SheetColumn("d5_95_s", "Duration 5-95% [s]", lambda row: row.measures.d5_95_s),
-    SheetColumn("final_velocity_mps", "Velocity at end [m/s]",
+    SheetColumn("final_velocity_mps", "Final velocity [m/s]",
         lambda row: row.measures.final_velocity_mps),
-    SheetColumn("final_displacement_m", "Displacement at end [m]",
+    SheetColumn("final_displacement_m", "Final displacement [m]",
         lambda row: row.measures.final_displacement_m),
 )  # fmt: skip
 
@@ -143,8 +144,8 @@ _RECORDS = (
 
 _NEIGHBORS = (
     SheetColumn("array", "Array", attrgetter("array")),
-    SheetColumn("other", "Neighbor", attrgetter("other")),
-    SheetColumn("what", "Kind", attrgetter("what")),
+    SheetColumn("other", "Adjacent item", attrgetter("other")),
+    SheetColumn("what", "Type", attrgetter("what")),
     SheetColumn("gap_m", "Distance in plan [in]", attrgetter("gap_m"), 1, rounding=Rounding.DOWN),
     up_column("reach_m", "Twice the design displacement [in]", attrgetter("reach_m"), 1),
     SheetColumn("given", "Clearance", attrgetter("numbers")),
@@ -165,7 +166,7 @@ def write_lists(pages: Pages, assessment: Assessment, spectra: Sequence[Spectra]
         write_list(pages, "Records", _RECORDS, shaking.records)
         write_table(pages, "Spectra", _spectra(spectra), is_printed=False)
     if assessment.neighbors:
-        write_list(pages, "Neighbors", _NEIGHBORS, assessment.neighbors)
+        write_list(pages, "Adjacent items", _NEIGHBORS, assessment.neighbors)
 
 
 def _components(shaking: Shaking) -> Iterator[_Component]:
@@ -192,7 +193,7 @@ _CHECKS = SheetLayout(
         SheetColumn("limit", "Required", lambda row: row.limit),
         SheetColumn("clause", "Basis", lambda row: row.check.clause),
         SheetColumn("verdict", "Verdict", lambda row: row.check.verdict),
-        SheetColumn("to_close", "What must be done", lambda row: row.check.to_close),
+        SheetColumn("to_close", "Action", lambda row: row.check.to_close),
     ),
 )  # fmt: skip
 

@@ -29,14 +29,22 @@ _Value = str | float | tuple[str, str | float]
 _OF_ARRAYS = (
     "Array", "Procedure", "Analysis [in]", "Prescriptive [in]", "Design [in]", "Cause", "Verdict",
 )  # fmt: skip
-_OF_GAPS = ("Governing clearance", "Kind", "Provided [in]", "Required [in]", "D/C", "", "Of all")
-_OF_CHECKS = ("Largest of each check", "Of", "Found", "Required", "Ratio", "Clause", "Verdict")
-_OF_OPEN = ("Not satisfied", "Of", "Found", "Required", "Who acts", "What must be done", "Verdict")
+_OF_GAPS = ("Governing clearance", "Type", "Provided [in]", "Required [in]", "D/C", "", "All")
+_OF_CHECKS = (
+    "Governing checks",
+    "Item",
+    "Found",
+    "Required",
+    "Ratio",
+    "Section",
+    "Verdict",
+)
+_OF_OPEN = ("Not satisfied", "Item", "Found", "Required", "Action by", "Action", "Verdict")
 _WIDTHS = (26, 26, 24, 22, 13, 26, 12)  # [letters]
 _NOTE = (
-    "As sheet 1 of the calculation package. Verdicts, displacements and the governing clearance "
-    "follow the yellow cells of the Inputs, Design and Clearances worksheets; all else is of the "
-    "package. Spectra, runs and unrounded values are data and do not print."
+    "Same as sheet 1 of the calculation package. Verdicts, displacements and the governing "
+    "clearance are recalculated from the yellow cells of the Inputs, Design and Clearances "
+    "worksheets; other values are not. Spectra, runs and unrounded values do not print."
 )
 
 

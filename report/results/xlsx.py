@@ -23,8 +23,8 @@ from report.text.names import shortened
 
 # The sheets in the order of the package.
 _ORDER = (
-    "Summary", "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions", "Records",
-    "Spectra", "Peaks", "Runs", "Links", "LinkRuns",
+    "Summary", "Design", "Clearances", "Adjacent items", "Requirements", "Inputs", "Motions",
+    "Records", "Spectra", "Peaks", "Runs", "Links", "LinkRuns",
 )  # fmt: skip
 
 # The sheets that a workbook without motions has not.
@@ -35,7 +35,7 @@ def results_xlsx(assessment: Assessment, spectra: Sequence[Spectra]) -> bytes:
     """Return the tables as a workbook, with live formulas from the peaks to the separations."""
     buffer = io.BytesIO()
     absent = set() if assessment.linked else {"Links", "LinkRuns"}
-    absent |= set() if assessment.neighbors else {"Neighbors"}
+    absent |= set() if assessment.neighbors else {"Adjacent items"}
     absent |= set() if assessment.has_motions else OF_MOTIONS
     project = assessment.project.project
     revision = (

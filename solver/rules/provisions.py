@@ -253,8 +253,8 @@ def array_checks(
     rules: RuleSet, *, cg_height_m: float, support_spacing_m: float, base_m: float, slope_rad: float
 ) -> tuple[Limit, ...]:
     """Return the checks of an array for both routes: low profile, and slope by the IBC."""
-    # Half of the least plan dimension of the supporting base (PV1-2012), or of the least spacing of
-    # the supports (ASCE 7).
+    # Half of the smallest plan dimension of the supporting base (PV1-2012), or of the smallest
+    # spacing of the supports (ASCE 7).
     takes_base = rules.low_profile_length is LowProfileLength.BASE
     length = rules["low_profile_ratio"] * (base_m if takes_base else support_spacing_m)
     return (

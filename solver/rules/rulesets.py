@@ -117,8 +117,8 @@ ALLOWED: Mapping[str, Allowed] = {
 class LowProfileLength(StrEnum):
     """The length whose half limits the height of the center of gravity."""
 
-    BASE = "least plan dimension of the supporting base"
-    SPACING = "least spacing of the supports"
+    BASE = "smallest plan dimension of the supporting base"
+    SPACING = "smallest spacing of the supports"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

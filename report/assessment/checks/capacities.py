@@ -87,9 +87,9 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
             title="Weight per plan area",
             subject=array.id,
             arrays=(array.id,),
-            found=f"roof capacity {NOT_GIVEN}",
+            found=f"allowable load {NOT_GIVEN}",
             limit="the allowable roof load",
-            clause="roof capacity, as entered",
+            clause="allowable load, as entered",
             actor=Actor.ROOF,
             is_satisfied=False,
             remedy="Obtain the allowable roof load from the engineer of the roof, and enter it"
@@ -106,7 +106,7 @@ def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
             found=entered(here_pa, Quantity.PRESSURE),
             limit=capacity(capacity_pa, Quantity.PRESSURE),
             sense=Sense.AT_MOST,
-            clause="roof capacity, as entered",
+            clause="allowable load, as entered",
             actor=Actor.ROOF,
             is_satisfied=here_pa <= capacity_pa * (1.0 + _NOISE),
             remedy="Reduce the weight, or obtain a larger allowable load from the engineer of"

@@ -59,7 +59,7 @@ def no_design(rules: RuleSet, arrays: Sequence[str], why: str, remedy: str) -> C
         arrays=tuple(arrays),
         found="none",
         note=why,
-        limit="a displacement by a permitted procedure",
+        limit="a displacement from a permitted procedure",
         clause=rules.name,
         is_satisfied=False,
         remedy=remedy,

@@ -196,7 +196,7 @@ def _sdc(row: InputRow) -> Iterator[Finding]:
     reasons = (
         (f"S_DS = {parameters.s_ds:.3f} g", "ASCE 7 Table 11.6-1"),
         (f"S_D1 = {parameters.s_d1 or 0.0:.3f} g", "ASCE 7 Table 11.6-2"),
-        (f"S_1 = {row['s_1_g'] or 0.0:g} g", "ASCE 7 section 11.6"),
+        (f"S_1 = {row['s_1_g'] or 0.0:g} g", "ASCE 7 Section 11.6"),
     )
     # Letters compare as categories do; the empty text of an unknown one is below A.
     required, (reason, clause) = max(zip(possible, reasons, strict=True), key=lambda by: by[0])

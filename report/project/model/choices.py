@@ -89,7 +89,7 @@ class RiskCategory(StrEnum):
 
 
 class SiteClass(StrEnum):
-    """Site class, ASCE 7 chapter 20; BC, CD and DE were added in the 2022 edition."""
+    """Site class, ASCE 7 Chapter 20; BC, CD and DE were added in the 2022 edition."""
 
     A = "A"
     B = "B"
@@ -105,7 +105,7 @@ class SiteClass(StrEnum):
 
 
 class Sdc(StrEnum):
-    """Seismic design category, ASCE 7 section 11.6."""
+    """Seismic design category, ASCE 7 Section 11.6."""
 
     A = "A"
     B = "B"

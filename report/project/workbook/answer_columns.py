@@ -120,8 +120,8 @@ def _times(unit: Unit) -> str:
 # differ, which asks for the larger separation. A row without friction is of its own kind.
 _KIND_OF_ARRAY = FormulaColumn(
     "kind_of_array",
-    "Kind of array",
-    "equal ones are alike: construction, slope, direction, friction low, high, rate, static",
+    "Array type",
+    "same text, similar arrays: construction, slope, direction, friction low, high, rate, static",
     f"""
         IF([id]="","",IFERROR(TRIM([construction])&" "&ROUND(IF([slope_unit]="{SlopeUnit.DEGREES}",
         [slope_value],DEGREES(ATAN([slope_value]/IF([slope_unit]="{SlopeUnit.PERCENT}",100,12))))
@@ -175,9 +175,9 @@ def _of_clearances(unit: Unit) -> tuple[FormulaColumn, ...]:
     column, length = FormulaColumn, decimals_format(unit)
     return (
         column("over_parapet", "Height over the lowest parapet [in]",
-               "0 or more qualifies an edge with parapet", _OVER_PARAPET,
+               "edge with parapet qualifies at 0 or more", _OVER_PARAPET,
                "0.0", 13, is_rare=True),
-        column("neighbor", "Neighbor", "as the rule set counts it", _NEIGHBOR, width=29),
+        column("neighbor", "Type", "as defined by the rule set", _NEIGHBOR, width=29),
         column("importance", "I", "importance factor in the separation", _IMPORTANCE, "0.00"),
         column("required", f"Required, prescriptive [{unit.symbol}]",
                "separation for the prescriptive displacement", required, length, 13),

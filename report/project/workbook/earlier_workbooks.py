@@ -43,8 +43,10 @@ GONE: Mapping[str, tuple[GoneInput, ...]] = {
 
 # Headings of formulas of earlier workbooks by section, lowercase and without unit.
 FORMER_ANSWERS: Mapping[str, frozenset[str]] = {
-    "arrays": frozenset({"slope in degrees", "weight per area"}),
-    "clearances": frozenset({"d/c, floor", "row of array", "row of other array", "row of object"}),
+    "arrays": frozenset({"kind of array", "slope in degrees", "weight per area"}),
+    "clearances": frozenset(
+        {"d/c, floor", "neighbor", "row of array", "row of other array", "row of object"}
+    ),
     "outlines": frozenset({"twice the area"}),
 }
 

@@ -69,11 +69,11 @@ MOTIONS = table("motions", "Motions", "Roof motions", MotionInput, "One row for 
     Entry("V_s30", "v_s30_mps", 312.0, "m/s", usual=(150.0, 1500.0), is_rare=True,
           note="Mean shear-wave velocity of the upper 30 m at the station."),
     Entry("Permanent displacement by", "drift_by", "RG, SE", is_rare=True,
-          note="Only if the ground or the roof was permanently displaced: who states it. Required"
+          note="Only if the ground or the roof was permanently displaced: who confirms it. Required"
           " with the source."),
     Entry("Permanent displacement source", "drift_source", "GNSS at the station", is_rare=True,
-          note="Evidence that the displacement is real. Without both entries, a record that ends"
-          " more than 0.5 m away is not accepted for the analysis."),
+          note="Evidence that the displacement is real. Without both entries, a record with a"
+          " final displacement above 0.5 m is not accepted for the analysis."),
 )  # fmt: skip
 
 BUILDING = block("building", "Building", "Building between ground and roof", BuildingInput,
@@ -100,10 +100,10 @@ BUILDING = block("building", "Building", "Building between ground and roof", Bui
 
 SPECTRUM = table("spectrum", "Spectrum", "Project-specific target spectrum", SpectrumPoint,
     "Optional. Replaces the AC156 spectrum for roof motions, or the design spectrum for ground"
-    " motions. 5 % damping, at least two rows.",
+    " motions. 5% damping, at least two rows.",
     Entry("Period", "period_s", 1.0, "s",
           note="Each period once, in any order. Interpolated on log-log axes."),
-    Entry("Horizontal", "horizontal_g", 0.8, "g", note="Pseudo-acceleration, 5 % damping."),
+    Entry("Horizontal", "horizontal_g", 0.8, "g", note="Pseudo-acceleration, 5% damping."),
     Entry("Vertical", "vertical_g", 0.4, "g",
           note="In every row, or blank in every row to use AC156."),
     may_be_absent=True,
@@ -112,7 +112,7 @@ SPECTRUM = table("spectrum", "Spectrum", "Project-specific target spectrum", Spe
 LINKS = table("links", "Links", "Rows of linked blocks", Links, "Optional. One row for each array"
     " to be compared with a row of linked blocks. The blocks have equal"
     " weights and lie in a row along the slope.",
-    Entry("Array", "array", "A1", note="ID of the array. One row for each."),
+    Entry("Array", "array", "A1", note="ID of the array. One row per array."),
     Entry("Block friction", "friction", "0.40, 0.45, 0.50", former="Friction of blocks",
           note="2 to 20 friction coefficients separated by commas, from the upslope block to the"
           " downslope block. Their range must include the array's coefficient."),
@@ -127,7 +127,7 @@ TARGET = block("target", "Building", "Target spectrum and scaling", TargetInput,
     "The default target is the AC156 spectrum for roof motions and the ASCE 7 design spectrum for"
     " ground motions.",
     Entry("AC156 below 1.3 Hz", "tail", "AC156",
-          note="The line of AC156, or 1/T for periods above 0.77 s as PV1-2012 Sec. 9 permits."),
+          note="The AC156 line, or 1/T for periods above 0.77 s as PV1-2012 Sec. 9 permits."),
     Entry("Long-period transition T_L", "t_l_s", 8.0, "s", below=("site", "s_d1_g"), sheet="Site",
           note="ASCE 7, 11.4.6. Used with S_1 and F_v for the design spectrum of ground motions."),
     Entry("Shortest scaling period", "from_s", 0.2, "s", former="Scaling periods from",

@@ -27,13 +27,13 @@ OPTIONS = block("options", "Options", "Options", Options, "The defaults suit mos
     Entry("Letter of review", "peer_letter", "peer-review.pdf",
           note="PDF in the workbook's folder. Required with peer review."),
     Entry("Smaller events", "smaller_events", "0.50, 0.50", note="Up to 20 factors on the motions,"
-          " greater than 0.0 and at most 1.0, separated by commas. Their displacements are added,"
+          " greater than 0.0 and at most 1.0, separated by commas. Their displacements are printed"
           " for information only."),
     Entry("Service-life study", "study_years", "years.json", is_new=True, former="Study of years",
           note="years.json of a study. The package attaches it and prints it for information."),
-    Entry("Edition", "package_edition", "plan check", note="Complete adds input echo, table of"
-          " spectra, histories, paths, symbols and full hashes. Letter is two sheets for a permit,"
-          " with one to six arrays by the prescriptive displacement."),
+    Entry("Edition", "package_edition", "plan check", note="Complete adds the input, a table of"
+          " spectra, histories, paths, symbols and full hashes. Letter is two sheets for a permit"
+          " with one to six arrays that use the prescriptive displacement."),
     Entry("Results letter", "letter", "No", former="Letter of results",
           note="Yes if the package contains a letter to the client with the results."),
     Entry("Sheet size of the roof plan", "plan_paper", "automatic", former="Paper of the roof plan",
@@ -42,7 +42,7 @@ OPTIONS = block("options", "Options", "Options", Options, "The defaults suit mos
 )  # fmt: skip
 
 CONFIRMATION = block("confirmation", "Options", "Confirmation of the provisions", Confirmation,
-    "Optional. A later change of any of these, or of an override, brings the marks † back.",
+    "Optional. If any of these or an override changes later, the † marks return.",
     Entry("Confirmed by", "by", "RG, SE",
           note="Name. If all five cells are filled in, values of the rule set are printed without"
           " †."),

@@ -91,7 +91,7 @@ ARRAYS = table("arrays", "Arrays", "Arrays", Array, "One row for each array that
           note="Smallest strength provided between the parts of the array; compared with the"
           " strength that the rule set requires."),
     Entry("Electrical slack", "slack_m", 48.0, Quantity.SIZE, usual=(6.0, 240.0),
-          note="Slack of the wiring that leaves the array; compared with the design displacement."),
+          note="Slack in the wiring to the array; compared with the design displacement."),
     Entry("Allowable roof load", "roof_capacity_pa", 6.0, Quantity.PRESSURE, usual=(2.0, 50.0),
           former="Roof capacity", note="Weight per area of the array permitted by the engineer of"
           " the roof; compared with the weight over the plan area. If blank, by others."),
@@ -109,7 +109,7 @@ OBJECTS = table("objects", "Objects", "Objects and roof edges", RoofObject,
     "One row for each object that an array could strike and each edge it could fall from. The plan"
     " rectangle is optional; enter an edge as a strip outside the roof.",
     Entry("ID", "id", "RTU-1", note="Short and unique, such as RTU-1."),
-    Entry("Kind", "kind", "fixed object",
+    Entry("Type", "kind", "fixed object", former="Kind",
           note="Array of different construction: one that is not listed on the Arrays worksheet,"
           " such as an existing array."),
     Entry("Height", "height_m", 42.0, Quantity.SIZE, usual=(4.0, 240.0),
@@ -156,6 +156,6 @@ LAYERS = table("layers", "Layers", "Layers of the roof drawing", DrawingLayer,
     " no row.",
     Entry("Layer", "layer", "A-ROOF-PV", note="Name of a layer of the roof drawing."),
     Entry("Content", "kind", "array", former="Drawn on it",
-          note="What the closed polylines on the layer are."),
+          note="What the closed polylines on the layer represent."),
     may_be_absent=True,
 )  # fmt: skip

@@ -25,17 +25,17 @@ PROJECT = block("project", "Project", "Project", Project, "Printed on sheet 1 an
     Entry("Firm's address and phone", "firm_contact", "500 Main St, Los Angeles, CA; 213 555 0100",
           is_new=True, note="Printed with the firm."),
     Entry("Engineer's license", "license", "CA S0000", is_new=True,
-          note="State and number of the engineer of record, printed in the box of the seal."),
+          note="State and number of the engineer of record, printed in the seal box."),
     Entry("Date", "date", dt.date(2026, 3, 5), note="Date of this issue."),
     Entry("Revision", "revision", "0", note="Revision of this issue, printed on every sheet."),
     Entry("Primary units", "units_first", "US", former="Units first",
           note="Both systems are printed; this one is first."),
     Entry("Drawing number", "plan_number", "S-101", is_new=True,
-          note="Drawing of the permit set that the distances are from. Printed on sheet 1."),
+          note="Permit drawing that the distances were taken from. Printed on sheet 1."),
     Entry("Drawing date", "plan_date", dt.date(2026, 2, 27), is_new=True, note="Date of that"
           " drawing."),
     Entry("Drawing distances confirmed by", "drawing_confirmed_by", "RG",
-          note="Name of who confirmed all distances from the drawing. Required with the date."),
+          note="Person who confirmed all distances from the drawing. Required with the date."),
     Entry("Drawing distances confirmed on", "drawing_confirmed_date", dt.date(2026, 3, 5),
           note="Date of the confirmation. Required with the name."),
     Entry("Drawing distances covered", "drawing_covered", "2026-03-05: Clearances 3f2a91",
@@ -57,7 +57,7 @@ SITE = block("site", "Site", "Site and building", Site, "Enter S_DS, S_MS, or S_
           note="Edition used for the seismic parameters. If blank, the edition of the rule set"
           " (ASCE 7-16 with PV1-2012)."),
     Entry("Risk category", "risk_category", "II", note="ASCE 7 Table 1.5-1."),
-    Entry("Site class", "site_class", "D", note="ASCE 7 chapter 20."),
+    Entry("Site class", "site_class", "D", note="ASCE 7 Chapter 20."),
     Entry("S_S", "s_s_g", 1.97, "g", usual=(0.1, 3.5),
           note="Mapped value, short period. Enter S_S and F_a, or S_MS, or S_DS."),
     Entry("S_1", "s_1_g", 0.70, "g", usual=(0.03, 1.5),
@@ -78,17 +78,17 @@ SITE = block("site", "Site", "Site and building", Site, "Enter S_DS, S_MS, or S_
           computed=least_i_e, rule="ASCE 7 Table 1.5-2†", note="Minimum 1.0 for Risk Category I or"
           " II, 1.25 for III, 1.5 for IV. If blank, the minimum is used."),
     Entry("Seismic design category", "sdc", "D", need="required, or S_1 and S_D1",
-          computed=least_category, rule="ASCE 7 section 11.6†", note="ASCE 7 section 11.6. If"
+          computed=least_category, rule="ASCE 7 Section 11.6†", note="ASCE 7 Section 11.6. If"
           " blank, the lowest category permitted by S_DS, S_D1 and S_1."),
     Entry("Basis of seismic parameters", "hazard", "mapped values", former="Hazard basis",
-          note="Site class D with S_1 of 0.2 g or more"
-          " needs a site-specific analysis or the exception of ASCE 7-16 11.4.8. Values below those"
-          " of its tables need one."),
+          note="Site Class D with S_1 of 0.2 g or more"
+          " requires a site-specific analysis or the exception of ASCE 7-16 11.4.8. Values below"
+          " the tables require the analysis."),
     Entry("Source of seismic parameters", "hazard_source", "ASCE 7 Hazard Tool",
           former="Source of hazard",
           note="Tool, or author of the site-specific analysis."),
     Entry("Date of seismic parameters", "hazard_date", dt.date(2026, 2, 20),
-          former="Date of hazard", note="Date on which the values were read, or of the report."),
+          former="Date of hazard", note="Date of the tool output or of the report."),
     Entry("Seismic parameters covered", "hazard_covered", "2026-02-20: Site 3f2a91",
           former="Hazard covered", note="Leave blank. roofslip report enters the date and a short"
           " hash of these values."),
@@ -100,7 +100,7 @@ SITE = block("site", "Site", "Site and building", Site, "Enter S_DS, S_MS, or S_
     Entry("Number of stories", "stories", 1, usual=(1.0, 6.0), former="Storeys",
           note="Above grade."),
     Entry("Structure height h", "structure_height_m", 36.0, Quantity.PLAN, usual=(8.0, 120.0),
-          note="Average roof height above the base, ASCE 7, 13.3."),
+          note="Average roof height above the base (ASCE 7, 13.3)."),
     Entry("Roof height z", "roof_height_m", 36.0, Quantity.PLAN, usual=(8.0, 120.0),
           former="Height of the array z", note="Height of the supporting roof above the base."),
     Entry("a_p or C_AR", "force_factor", 1.0, note="a_p (ASCE 7-16) or C_AR (7-22) of the arrays;"
@@ -126,15 +126,15 @@ SITE = block("site", "Site", "Site and building", Site, "Enter S_DS, S_MS, or S_
     Entry("Longitude", "longitude_deg", -118.2334, "deg", is_new=True,
           note="Positive east; negative in the Americas."),
     Entry("Design load of the roof", "roof_load_pa", 32.0, Quantity.PRESSURE, usual=(10.0, 150.0),
-          is_new=True, note="Design gravity load of the existing roof; the weight of each array"
-          " over its plan area is compared with 5 % of it."),
+          is_new=True, note="Design gravity load of the existing roof. The weight of each array"
+          " over its plan area is compared with 5% of it."),
     Entry("Seismic weight", "seismic_weight_n", 900_000.0, Quantity.WEIGHT,
           usual=(20_000.0, 100_000_000.0), is_new=True,
-          note="Seismic weight of the existing building; the weight of all arrays is"
-          " compared with 10 % of it."),
+          note="Seismic weight of the existing building. The weight of all arrays is"
+          " compared with 10% of it."),
     Entry("Evaluation of the building", "roof_evaluation", "J. Doe, SE, 2026-02-20", is_new=True,
-          note="Evaluation of the existing building with the added weight: by whom, and date or"
-          " number of the report. For a new building: designed for it, by whom."),
+          note="Evaluation of the existing building with the added weight: author, and date or"
+          " number of the report. For a new building: who designed it for this weight."),
 )  # fmt: skip
 
 FRICTION_TESTS = block("friction_tests", "Friction tests", "Friction tests", FrictionTests,
@@ -161,7 +161,7 @@ FRICTION_TESTS = block("friction_tests", "Friction tests", "Friction tests", Fri
     may_be_absent=True,
 )  # fmt: skip
 
-FRICTION_RUNS = table("friction_runs", "Friction tests", "Runs of the friction tests",
+FRICTION_RUNS = table("friction_runs", "Friction tests", "Friction test runs",
     FrictionTestRow, "Optional: one row for each run, wet and dry. The package compares the"
     " friction coefficients of the arrays with the kinetic means.",
     Entry("Surface", "surface", "wet", note="Condition of the roof surface."),

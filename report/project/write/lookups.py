@@ -20,7 +20,7 @@ from solver.rules.site_coefficients import F_A, F_V, CoefficientTable
 TABLES = "Tables"
 # Above every mapped acceleration that is accepted.
 _ABOVE_ALL_G = 100.0
-_HINT = "What the formulas of this workbook look up. No input cells on this worksheet."
+_HINT = "Lookup tables for the formulas in this workbook. No input cells on this worksheet."
 _STATUS = {
     Confidence.CONFIRMED: "confirmed against a published calculation",
     Confidence.KNOWN: "† verify against the adopted code",
@@ -107,12 +107,12 @@ def _write_sdc(sheet: Worksheet, row: int) -> int:
         ["S_DS", 0.0, *hazard.LIMITS_SHORT_G],
         ["S_D1", 0.0, *hazard.LIMITS_1S_G],
     ]
-    note = "Least value of each step; ASCE 7, 11.6"
+    note = "Lower limit of each step; ASCE 7, 11.6"
     words = ("Steps of the seismic design category", note)
     after = _write_table(sheet, row, words, ("Value [g]", "1", "2", "3", "4"), limits, {})
     for step_row, name in enumerate(("sdc_s_ds", "sdc_s_d1"), start=row + 3):
         layout.name_range(name, sheet, f"$B${step_row}:$E${step_row}")
-    note = f"By its step, the fifth of S_1 = {hazard.NEAR_FAULT_S_1_G} g; then as far as it follows"
+    note = f"By step; step 5 is S_1 of {hazard.NEAR_FAULT_S_1_G} g or more. Then, if certain,"
     rows = []
     for category, i_e in hazard.LEAST_I_E.items():
         letters = "ACDDF" if category == "IV" else "ABCDE"
@@ -127,17 +127,19 @@ def _write_sdc(sheet: Worksheet, row: int) -> int:
 
 
 def _write_neighbors(sheet: Worksheet, row: int) -> int:
-    words = ("Kinds of objects", "What each counts as beside an array")
-    heads = ("Kind", "No parapet that qualifies", "Parapet that qualifies")
+    words = ("Object types", "Clearance type of each next to an array")
+    heads = ("Type", "No qualifying parapet", "Qualifying parapet")
     kinds = [(kind.value, *neighbors) for kind, neighbors in KINDS.items()]
     row = _write_table(sheet, row, words, heads, kinds, {"kinds": "A:C"})
-    words = ("Neighbors", "Which of the separations on the Provisions worksheet each has")
+    words = ("Clearance types", "Separation of each, by its row on the Provisions worksheet")
     rows = [(neighbor.value, float(number)) for neighbor, number in SEPARATION_ROWS.items()]
-    return _write_table(sheet, row, words, ("Neighbor", "Separation"), rows, {"neighbors": "A:B"})
+    return _write_table(
+        sheet, row, words, ("Clearance type", "Separation"), rows, {"neighbors": "A:B"}
+    )
 
 
 def _write_units(sheet: Worksheet, row: int) -> None:
-    words = ("Units of headings", "In inches")
+    words = ("Units in headings", "In inches")
     lengths = (("arrays", "cg_height_m"), ("objects", "height_m"), ("clearances", "provided_m"))
     rows = []
     for key, field in lengths:

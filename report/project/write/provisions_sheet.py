@@ -22,7 +22,7 @@ from solver.rules.provisions import SEPARATION_KEYS
 from solver.rules.rulesets import ALLOWED, RULE_SETS, RuleSet, usual
 
 PROVISIONS = "Provisions"
-_HEADS = ("Rule", "Unit", "In use", "Override, allowed", "Override, usual")
+_HEADS = ("Rule", "Unit", "In use", "Override, allowed", "Override, typical")
 _WIDTHS = (52, 6, 9, 12, 14)
 _RULE_WIDTHS = (10, 16)
 _FIRST = len(_HEADS) + 1
@@ -39,8 +39,9 @@ _FACTS: Sequence[tuple[str, str, Callable[[RuleSet], str]]] = (
      lambda rules: IN_SEPARATION if rules.importance_in_separation else IN_DISPLACEMENT),
     ("low_sdc", "In SDC A, B, C the prescriptive displacement is",
      lambda rules: ONE_VALUE if rules.low_sdc_is_flat else BY_FORMULA),
-    ("edition", "Edition of ASCE 7, unless Site names one", lambda rules: rules.edition),
-    ("low_profile", "The height of the center of gravity is limited by a fraction of the",
+    ("edition", "Edition of ASCE 7, if not entered on the Site worksheet",
+     lambda rules: rules.edition),
+    ("low_profile", "The height of the center of gravity is limited to a fraction of the",
      lambda rules: rules.low_profile_length.value),
 )  # fmt: skip
 
@@ -80,7 +81,7 @@ def _write_rule(sheet: Worksheet, overrides: layout.TablePlace, row: int, key: s
     for count, rules in enumerate(RULE_SETS.values()):
         provision = rules.values.get(key)
         if provision is None:
-            _write_pair(sheet, row, count, "–", "no such rule")
+            _write_pair(sheet, row, count, "–", "not in this rule set")
         else:
             mark = "" if provision.verified else "†"
             _write_pair(sheet, row, count, provision.value, f"{provision.clause}{mark}")
@@ -111,7 +112,7 @@ def _write_pair(sheet: Worksheet, row: int, count: int, value: str | float, clau
 
 
 def _write_facts(sheet: Worksheet, overrides: layout.TablePlace, top: int) -> None:
-    style.put(sheet, top, 1, "How each rule set works", bold=True, wrap=False)
+    style.put(sheet, top, 1, "Differences between the rule sets", bold=True, wrap=False)
     for row, (key, words, fact) in enumerate(_FACTS, start=top + 1):
         style.put(sheet, row, 1, words).border = style.LINE
         for count, rules in enumerate(RULE_SETS.values()):

@@ -138,7 +138,7 @@ def test_a_weight_over_the_roof_capacity_is_ng_and_prints_the_same_beside_the_wi
     assert spaced((*texts(row), row.verdict)) == (found, limit, verdict)
     assert spaced(texts(before_runs("wind_weight", **given))[1]) == f"= {found}"
     row = before_runs("roof_capacity", **given)
-    assert (row.found, row.verdict) == ("roof capacity not entered", Verdict.CONDITION)
+    assert (row.found, row.verdict) == ("allowable load not entered", Verdict.CONDITION)
 
 
 @pytest.mark.parametrize(

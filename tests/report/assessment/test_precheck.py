@@ -111,7 +111,7 @@ def test_a_statistic_that_needs_more_motions_is_the_reason_or_ng_at_its_cell():
     found = findings(projects.steep(options={"statistic": "mean"}), SEVEN)
     texts = [f.text for f in found if f.place == Place("options", 0, "statistic")]
     (lacking,) = (text for text in texts if text.startswith("NG. Design displacement"))
-    assert f"none ({reason}). Required: a displacement by a permitted procedure" in lacking
+    assert f"none ({reason}). Required: a displacement from a permitted procedure" in lacking
     prescribed = findings(projects.project(options={"statistic": "mean"}), SEVEN)
     assert not any(f.text.startswith("NG. Design") for f in prescribed)
 

@@ -164,7 +164,7 @@ def test_rows_that_a_table_grows_by_have_its_formulas_and_formats(tmp_path, unit
                range(table[0], table[2] + 1)]  # fmt: skip
     assert formats == ["0.0000"] * len(formats)
     assert overwritten(sheet.book) == ()
-    last = cell(load_workbook(sheet.path), "Arrays/A29/Kind of array")
+    last = cell(load_workbook(sheet.path), "Arrays/A29/Array type")
     assert str(last.value).startswith("=IF(")
 
 

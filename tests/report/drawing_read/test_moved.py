@@ -214,7 +214,7 @@ def first_day(tmp_path):
     path = blank(folder / "input.xlsx", UnitsFirst.US)
     stdout_of("plan", "read", saved(tmp_path, FEET), path)
     return type_into(path, {
-        "Objects/EDGE-2/Kind": "edge with parapet", "Objects/EDGE-2/Height": 36,
+        "Objects/EDGE-2/Type": "edge with parapet", "Objects/EDGE-2/Height": 36,
         "Objects/RTU-2/Location source": None,
         "Arrays/A1/Downslope direction": 270, "Arrays/A1/Weight": 42000,
         "Arrays/A2/Weight": 41000,

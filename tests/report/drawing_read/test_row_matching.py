@@ -170,7 +170,7 @@ def test_a_roof_that_grows_keeps_what_was_typed_of_its_edges(tmp_path):
     path = filled(tmp_path, [((20, 60), "A1")])
     ids = [row["id"] for row in read(path).inputs["objects"]]
     assert len(ids) == 4
-    type_into(path, {f"Objects/{ids[1]}/Kind": "edge with parapet",
+    type_into(path, {f"Objects/{ids[1]}/Type": "edge with parapet",
                      f"Objects/{ids[1]}/Height": 36})  # fmt: skip
     before = {row["id"]: row["kind"] for row in read(path).inputs["objects"]}
     larger = ((0, 0), (300, 0), (300, 160), (0, 160))

@@ -83,9 +83,12 @@ def test_verdicts_of_arrays_clearances_and_neighbors_are_one_word(made):
     assert [bare(row["Type"]) for row in measured] == shown
     cells = rows_of(book["Clearances"], 4)
     assert [row["Verdict"] for row in cells] == [row["verdict"] for row in gaps]
-    assert [f"{row['Kind']}, {row['Direction']}" for row in cells] == kinds
+    assert [f"{row['Type']}, {row['Direction']}" for row in cells] == kinds
     expected = {(row["array"], row["other"]): row["what"] for row in document["neighbors"]}
-    cells = {(row["Array"], row["Neighbor"]): row["Kind"] for row in rows_of(book["Neighbors"], 1)}
+    cells = {
+        (row["Array"], row["Adjacent item"]): row["Type"]
+        for row in rows_of(book["Adjacent items"], 1)
+    }
     assert cells == expected
 
 
@@ -191,7 +194,7 @@ def test_lowered_values_are_marked_where_they_govern_on_the_plan_and_in_results_
 def test_results_xlsx_shows_the_mark_and_keeps_the_number_as_terminal_and_page(done, tmp_path):
     book = openpyxl.load_workbook(io.BytesIO(results_xlsx(done, spectra(done))), data_only=True)
     for sheet, headings in (
-        ("Design", ("Prescriptive [in]", "Floor [in]", "Design [in]", "Design by Roofslip [in]")),
+        ("Design", ("Prescriptive [in]", "Floor [in]", "Design [in]", "Design, as reported [in]")),
         ("Clearances", ("Design [in]", "Required [in]", "Required [mm]", "D/C")),
     ):
         rows = list(book[sheet].iter_rows(min_row=4))

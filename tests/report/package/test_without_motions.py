@@ -144,12 +144,12 @@ def test_results_xlsx_follows_from_the_site_by_formula(tmp_path):
     path.write_bytes(results_xlsx(assessments.without_motions(), ()))
     (book,) = recalculated([path], tmp_path)
     assert book.sheetnames == [
-        "Summary", "Design", "Clearances", "Neighbors", "Requirements", "Inputs",
+        "Summary", "Design", "Clearances", "Adjacent items", "Requirements", "Inputs",
     ]  # fmt: skip
     rows = [[cell.value for cell in row] for row in book["Design"].iter_rows(min_row=4)]
     heads, first = rows[0], rows[1]
     design = dict(zip(heads, first, strict=False))
-    assert design["Computed [in]"] == "none"
+    assert design["Analysis [in]"] == "none"
     assert design["Number of motions"] == 0
     assert first.count(pytest.approx(PRESCRIPTIVE_M / 0.0254, abs=0.05)) >= 3
     cells = [cell for sheet in book for row in sheet for cell in row if cell.value is not None]

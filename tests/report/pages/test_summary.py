@@ -249,7 +249,7 @@ def test_the_plan_says_which_displacement_a_separation_takes():
             None,
             "A1 40.0 in (1016 mm) (support spacing; no base dimension entered).",
         ),
-        ("ASCE 7-16", 1.524, "least spacing of the supports: A1 40.0 in (1016 mm)."),
+        ("ASCE 7-16", 1.524, "smallest spacing of the supports: A1 40.0 in (1016 mm)."),
     ],
 )
 def test_the_length_that_limits_the_center_of_gravity_is_the_one_compared(rule_set, base_m, words):

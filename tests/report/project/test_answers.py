@@ -327,7 +327,7 @@ def test_required_separation_and_ratio_of_each_clearance_are_those_of_the_packag
     checks = [check_clearance(data, rules, slides, row) for row in data.clearances]
     unit, required = case.column("Required, prescriptive")
     size = next(each for each in Quantity.SIZE.value if each.symbol == unit)
-    columns = (case.column(head)[1] for head in ("Neighbor", "I", "D/C, prescriptive"))
+    columns = (case.column(head)[1] for head in ("Type", "I", "D/C, prescriptive"))
     ratios = []
     rows = zip(checks, required, *columns, strict=False)
     for check, length, neighbor, importance, shown_ratio in rows:
@@ -351,6 +351,6 @@ def test_no_formula_gives_an_error(case):
 
 @pytest.mark.nightly
 def test_the_random_clearances_have_every_neighbor(filled):
-    neighbors = [each for name in SITES for each in filled[name].column("Neighbor")[1] if each]
+    neighbors = [each for name in SITES for each in filled[name].column("Type")[1] if each]
     assert len(neighbors) == N_INPUTS
     assert {*neighbors} == {each.value for each in Neighbor}

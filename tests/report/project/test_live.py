@@ -60,11 +60,11 @@ def typed_over(book):
 
 
 RATIO = "Clearances/{}/D/C, prescriptive"
-NEIGHBOR = "Clearances/1/Neighbor"
+NEIGHBOR = "Clearances/1/Type"
 FACTOR = "Provisions/Prescriptive displacement / (S_DS - 0.4)^2/In use"
 OVER = {
     "Site/S_DS/Computed": 1.2,
-    "Arrays/A1/Kind of array": None,
+    "Arrays/A1/Array type": None,
     NEIGHBOR: "=#REF!",
     RATIO.format(1): 0.5,
     RATIO.format(2): 0.5,
@@ -86,7 +86,7 @@ def test_each_cell_is_named_with_what_is_in_it_and_what_belongs_there(tmp_path):
     )
     for place, words in {
         "Site/S_DS/Computed": "the formula of S_DS, computed, was overwritten with 1.2",
-        "Arrays/A1/Kind of array": "is blank, and its formula is gone",
+        "Arrays/A1/Array type": "is blank, and its formula is gone",
         ratios: "D/C, prescriptive (3 cells) was overwritten with 0.5",
     }.items():
         assert words in texts[workbooks.cell_address(place)]

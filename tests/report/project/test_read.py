@@ -225,7 +225,7 @@ SPELLINGS = {
     "choices in capitals": ("Arrays/A1/Slope unit", " Degrees "),
     "a number as a text": ("Project/Revision", 1),
     "a logical value for a yes": ("Options/Peer review", True),
-    "notes in a computed column": ("Arrays/A2/Kind of array", "ask the client"),
+    "notes in a computed column": ("Arrays/A2/Array type", "ask the client"),
     "another value in a computed cell": ("Site/S_DS/Computed", 99.0),
     "no width at the ends of a text": ("Motions/M1/ID", "\ufeffM1\u200b \u200b"),
     "no unit where none can be chosen": ("Site/S_DS/Unit", None),

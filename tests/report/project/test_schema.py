@@ -132,7 +132,7 @@ def faults(**changes):
          "S_D1 = 0.455 g in risk category II requires D or higher (ASCE 7 Table 11.6-2)"),
         ({"s_1_g": 0.8}, "sdc",
          "seismic design category is 'D'; S_1 = 0.8 g in risk category II requires E or higher"
-         " (ASCE 7 section 11.6)"),
+         " (ASCE 7 Section 11.6)"),
         ({"site_class": SiteClass.D_DEFAULT, "s_s_g": 1.2, "f_a": 1.1, "f_v": 1.9}, "f_a",
          "F_a is 1.1; enter at least 1.2 for site class 'D (default)' and S_S of 1.2 g in s_s_g"
          " (ASCE 7-16 Table 11.4-1†)"),
@@ -208,7 +208,7 @@ def test_what_is_blank_is_computed_and_the_echo_says_so(tmp_path):
     assert [echo[name] for name in NAMES] == [
         "1.25 (computed, ASCE 7 Table 1.5-2†)",
         "1.2 (computed, ASCE 7-16 Table 11.4-1†)",
-        "D (computed, ASCE 7 section 11.6†)",
+        "D (computed, ASCE 7 Section 11.6†)",
     ]
     places = [row.address for row in sheet.echo if row.sheet == "Site"]
     assert places == sorted(places, key=lambda place: int(place.partition("!B")[2]))

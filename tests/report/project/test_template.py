@@ -298,7 +298,7 @@ def test_rare_columns_are_folded_until_one_is_filled(tmp_path):
     assert column(empty, "Weight").outlineLevel == 0
     filled = load_workbook(make(tmp_path, arrays=workbooks.arrays(i_p=1.25)))
     assert not column(filled, "Importance factor I_p").hidden
-    assert column(filled, "Kind of array").hidden
+    assert column(filled, "Array type").hidden
 
 
 def column(book, heading):

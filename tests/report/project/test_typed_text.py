@@ -134,7 +134,7 @@ AS_TYPED = [
         "Project/Date": ("Nov 20, 2026", "date", DAY),
         "Site/Risk category": (2, "risk_category", "II"),
         "Site/Rule set": ("ASCE7-16", "rule_set", "ASCE 7-16"),
-        "Objects/RTU-1/Kind": ("Fixed  object", "kind", "fixed object"),
+        "Objects/RTU-1/Type": ("Fixed  object", "kind", "fixed object"),
         "Clearances/1/Direction": ("Cross-Slope", "direction", "cross-slope"),
         "Arrays/A1/Slope unit": ("%", "slope_unit", "percent"),
     },
@@ -146,7 +146,7 @@ AS_TYPED = [
     {"Arrays/A1/Slope unit": ("in/ft", "slope_unit", "in/12")},
     {  # the words of earlier workbooks
         "Clearances/1/Direction": ("Down", "direction", "downslope"),
-        "Objects/RTU-1/Kind": ("unlike array", "kind", "array of different construction"),
+        "Objects/RTU-1/Type": ("unlike array", "kind", "array of different construction"),
         "Options/Design value statistic": ("rule set", "statistic", "per rule set"),
         "Options/Sheet size of the roof plan": ("by size", "plan_paper", "automatic"),
     },
@@ -157,7 +157,7 @@ AS_TYPED = [
 REMARKS = {
     "Arrays/A1/Friction coefficient": ("0.45 (wet)", "enter a number from 0 to 1.5"),
     "Site/Site class": ("Site Class D", "choose A, B, BC, C, CD, D, D (default), DE, E or F"),
-    "Objects/RTU-1/Kind": (
+    "Objects/RTU-1/Type": (
         "fixed",
         f"choose {', '.join(KINDS[:-1])} or {KINDS[-1]}",
     ),

@@ -65,7 +65,7 @@ def shown(cell):
 @pytest.mark.quick
 def test_sheets_are_in_order_landscape_and_legible(book):
     order = [
-        "Summary", "Design", "Clearances", "Neighbors", "Requirements", "Inputs", "Motions",
+        "Summary", "Design", "Clearances", "Adjacent items", "Requirements", "Inputs", "Motions",
         "Records", "Spectra", "Peaks", "Runs", "Links", "LinkRuns",
     ]  # fmt: skip
     assert book.sheetnames == [name for name in order if name in book.sheetnames]
@@ -211,10 +211,10 @@ def test_the_verdict_follows_five_changed_inputs_as_in_a_report_made_from_them(b
     worst = max(after.clearances, key=lambda gap: gap.demand_capacity)
     row = f"Summary/{worst.clearance.array} to {worst.clearance.object}"
     assert cell(book, f"{row}/D/C").value == float(ratio(worst.demand_capacity))
-    assert cell(book, f"{row}/Of all").value == "NG"
+    assert cell(book, f"{row}/All").value == "NG"
     lengths = [
         f"{heading}, unrounded"
-        for heading in ("Prescriptive", "Mean PRD", "Largest PRD", "Computed", "Floor", "Design")
+        for heading in ("Prescriptive", "Mean PRD", "Largest PRD", "Analysis", "Floor", "Design")
     ]
     for item in after.arrays:
         row, found = f"Design/{item.id}", item.analysis

@@ -137,14 +137,14 @@ def test_values_runs_and_clearances_are_live_and_listed(usual):
     assert len(rows) == 3 * 7 * 4
     assert sum(row["Governs"] == "yes" for row in rows) == 3 * 7
     assert rows[0]["Model"] == "3, two axes with vertical"
-    assert "second horizontal component" in rows[0]["Reason"]
+    assert "second horizontal component" in rows[0]["Reason for model"]
     assert rows[0]["Cross-slope [in]"] > 0.0
     head = [at.value for at in usual[1]["Spectra"][1]]
     assert head[:3] == ["Period [s]", "Horizontal, target [g]", "Horizontal, M1 [g]"]
     assert len(head) == 1 + 3 * 8
     assert "Transverse, M7 [g]" in head
-    first, *_ = rows_of(usual[1]["Neighbors"])
-    assert [first[name] for name in ("Array", "Neighbor", "Kind", "Clearance", "Remark")] == [
+    first, *_ = rows_of(usual[1]["Adjacent items"])
+    assert [first[name] for name in ("Array", "Adjacent item", "Type", "Clearance", "Remark")] == [
         "A1", "A3", "array", "No. 1", "agrees with plan; more than 2Δ apart",
     ]  # fmt: skip
     assert first["Distance in plan [in]"] == pytest.approx(180.0)
@@ -234,7 +234,7 @@ def test_the_summary_has_every_check_that_is_open_and_no_kind_twice(usual):
         sorted((c.title, c.verdict) for c in wanted)
     )
     assert all(row[4] and row[5] for row in last if row[6] == "Condition")
-    governing = rows[heads.index("Largest of each check") + 1 : heads.index("Not satisfied")]
+    governing = rows[heads.index("Governing checks") + 1 : heads.index("Not satisfied")]
     assert len({row[0] for row in governing}) == len(governing)
     ratios = [row[4] for row in governing]
     assert ratios == sorted(ratios, reverse=True)
