@@ -71,5 +71,7 @@ def _at_floor(gain: Saving, floor: str) -> str:
     if gain.n_satisfied == gain.n_short:
         count = "all"
     else:
-        count = f"{spelled(gain.n_satisfied) if gain.n_satisfied else 'none'} of the"
-    return f"At {floor}, {count} {counted(gain.n_short, 'clearance')} that fail would be satisfied"
+        none = "neither" if gain.n_short == 2 else "none"
+        count = f"{spelled(gain.n_satisfied) if gain.n_satisfied else none} of the"
+    failing = counted(gain.n_short, "failing clearance")
+    return f"At {floor}, {count} {failing} would be satisfied"

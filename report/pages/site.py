@@ -145,7 +145,8 @@ def _hazard(data: ProjectInput) -> Iterator[_Row]:
         structure = building.structure or "other"
         period_s = approximate_period_s(structure, site.structure_height_m)
         source = "computed" if building.structure else "assumed"
-        name = f"Approximate period, structure type {structure}"
+        system = "all other structural systems" if structure == "other" else structure
+        name = f"Approximate period, {system}"
         yield _row(name, "T_a", _given(period_s, unit=seconds), clause("period"), source)
     yield _row(
         "End of the spectral plateau",

@@ -99,7 +99,7 @@ def _caption(package: PackageData) -> str:
 def _enough(done: Assessment, remedies: Remedies) -> str:
     """Return what is enough for a project that is NG, in a sentence; or that nothing found is."""
     if remedies.own and not remedies.together:
-        return "None of the combinations of changes that were tried is sufficient."
+        return "None of the combinations tried is sufficient."
     return remedies.sentence
 
 

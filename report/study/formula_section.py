@@ -85,7 +85,7 @@ def _beside(results: StudyResults, building: int, fit: Fit) -> Table:
         (text(with_symbols(axis(results))), lambda index: f"{study_input.intensities[index[3]]:g}"),
         (text("Mean PRD", unit), lambda index: length(results, float(mean_m[index]))),
         (text(name, unit, 1.4), lambda index: design_length(results, float(design_m[index]))),
-        (text("The same from the formula", unit, 1.4), lambda index: by_formula(index)[0]),
+        (text("Value from the formula", unit, 1.4), lambda index: by_formula(index)[0]),
         (text(with_symbols("Δ_RHA / formula"), share=1.2), lambda index: by_formula(index)[1]),
     )
     intensities = some(study_input.intensities, MOST_FRICTIONS)

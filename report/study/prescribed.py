@@ -72,7 +72,8 @@ def prescribed(results: StudyResults, building: int, prescribed: Prescribed) -> 
     slopes, mus = _extent(results, prescribed.unsafe_not_permitted)
     return section(
         "study/prescribed",
-        "Beside the prescriptive displacement" + on_building(results, building, ", building "),
+        "Comparison with the prescriptive displacement"
+        + on_building(results, building, ", building "),
         id=f"prescribed-{building}",
         cases=prescribed.ratio.size,
         unsafe=int(prescribed.unsafe.sum()),

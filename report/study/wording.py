@@ -117,7 +117,7 @@ def _steepest(results: StudyResults) -> Iterator[tuple[str, float, list[str]]]:
 
 def _slope(results: StudyResults, slope: float) -> str:
     if math.isnan(slope):
-        return "none of the study"
+        return "none in the study"
     return f"{answer(slope, results.plan.input.slopes_deg[-1], '≥', SLOPE_DECIMALS)}°"
 
 

@@ -1,4 +1,4 @@
-"""Strength, slack and weight of an array, and what the existing building has room for.
+"""Strength, slack and weight of an array, and added weight on the existing building.
 
 The existing-building code has a rule of 5% for gravity and one of 10% for lateral loads. Neither
 section was compared with its text: hence †.
@@ -26,7 +26,7 @@ _NOISE = 1e-9  # a weight in other units is no more than itself
 
 
 def before_runs(data: ProjectInput, array: Array, required_n: float) -> Iterator[Check]:
-    """Yield what is required of an array and needs no run; of its parts a strength [N]."""
+    """Yield the requirements on an array that need no run, with the strength of its parts [N]."""
     yield _interconnection(data, array, required_n)
     yield from _weight(data, array)
 
@@ -64,7 +64,7 @@ def slack_check(array: Array, required_m: float, index: int) -> Check:
 
 
 def _provided(value: float | None, required: float, quantity: Quantity) -> Mapping[str, Any]:
-    """Return what is found and required of a value that a workbook may give, and what follows."""
+    """Return the value found, the value required and the consequence for an optional input."""
     has_limit = not math.isnan(required)
     return {
         "found": NOT_GIVEN if value is None else capacity(value, quantity),
@@ -78,7 +78,7 @@ def _provided(value: float | None, required: float, quantity: Quantity) -> Mappi
 
 
 def _weight(data: ProjectInput, array: Array) -> Iterator[Check]:
-    """Yield the weight per plan area beside what the engineers of roof and wind state."""
+    """Yield the weight per plan area compared with the values of the roof and wind engineers."""
     here_pa, capacity_pa, wind_pa = array.weight_pa, array.roof_capacity_pa, array.wind_weight_pa
     unit = Quantity.PRESSURE.us if data.us_first else Quantity.PRESSURE.si
     if capacity_pa is None:
@@ -146,7 +146,7 @@ _REMEDY = (
 
 
 def of_existing_roof(data: ProjectInput) -> Iterator[Check]:
-    """Yield the weight added as a share of the roof's own loads, and what is not entered."""
+    """Yield the added weight as a fraction of the roof's own loads, and missing inputs."""
     site, heaviest = data.site, max(data.arrays, key=lambda array: array.weight_pa)
     added_n = math.fsum(array.weight_n for array in data.arrays)
     evaluated = f"evaluated: {site.roof_evaluation}" if site.roof_evaluation else ""
@@ -184,7 +184,7 @@ def of_existing_roof(data: ProjectInput) -> Iterator[Check]:
         yield condition(
             id="existing_roof",
             title="Existing building with the added weight",
-            found=evaluated or f"not checked: {', '.join(lacking.values())} {NOT_GIVEN}",
+            found=evaluated or f"not checked: {' and '.join(lacking.values())} {NOT_GIVEN}",
             limit="the loads for the 5% and 10% rules, or an evaluation",
             clause=f"{code} 503.3, 503.4{year}†",
             is_satisfied=bool(evaluated),

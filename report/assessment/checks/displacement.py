@@ -1,4 +1,4 @@
-"""What is required of the displacement of an array: a value, runs that end, no tipping."""
+"""Requirements on the displacement of an array: a value, runs that end, no tipping."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _design(done: Assessment, item: ArrayAssessment) -> Check:
 
 
 def no_design(rules: RuleSet, arrays: Sequence[str], why: str, remedy: str) -> Check:
-    """Return that arrays have no design displacement, and why."""
+    """Return the check that arrays have no design displacement, with the reason."""
     return Check(
         id="design",
         title="Design displacement",
@@ -67,7 +67,7 @@ def no_design(rules: RuleSet, arrays: Sequence[str], why: str, remedy: str) -> C
 
 
 def _way_out(done: Assessment, item: ArrayAssessment) -> str:
-    """Return what gives a permitted displacement: motions, if the project has none."""
+    """Return how to obtain a permitted displacement: motions, if the project has none."""
     if done.has_motions:
         # Runs that do not come to rest, and slopes, have checks of their own.
         is_of_motions = item.lacks_motions or not done.acceptance.qualifies
@@ -156,7 +156,7 @@ def _tipping(item: ArrayAssessment) -> Check:
 
 
 def of_links(linked: LinkedArray) -> Check:
-    """Return whether one rigid block is adequate for an array, where the workbook asks."""
+    """Return whether one rigid block is adequate for an array, if the workbook requests it."""
     design, estimated_m = linked.design, linked.estimated_m
     found_value: Amount | str = demand(estimated_m, Quantity.DISPLACEMENT)
     note = "one rigid block does not slide in one axis" if math.isinf(estimated_m) else ""

@@ -1,4 +1,4 @@
-"""The motions of an analysis: how they reach their targets, where they end, at which periods."""
+"""Checks of the motions of an analysis: target spectra, final displacements, long periods."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ MOST_FACTOR = 2.0
 def of_acceptance(
     acceptance: Acceptance, analyzed: Sequence[str], shaking: Shaking
 ) -> Iterator[Check]:
-    """Yield the limits on the motions; `analyzed` are the arrays that take the analysis route."""
+    """Yield the limits on the motions; `analyzed` are the arrays with the analysis procedure."""
     # The way out is said once, at the first of the spectral limits.
     spectral = next(filter(_is_spectral, acceptance.missed), None)
     for limit in acceptance.rows:
@@ -82,7 +82,7 @@ def _remedy(*, is_ng: bool, has_analysis: bool) -> str:
 
 
 def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
-    """Return how records reach the target: by a factor, if one does, and by motions of them."""
+    """Return how records can reach the target: by a common factor, or as seeds of motions."""
     ways, common = "", _factor(acceptance)
     if common <= MOST_FACTOR:
         factors = ids_by(shaking.motions, lambda motion: digits_up(motion.scale * common, 4))
@@ -96,8 +96,8 @@ def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
         files = grouped_by(shaking.records, attrgetter("motion_id")).values()
         seeds = " ".join(quoted(",".join(file.name for file in names)) for names in files)
         ways += (
-            " Or clear their rows on the Motions worksheet and generate motions that reach"
-            " it from their records, in the folder of the workbook: roofslip motion suite"
+            " Or clear their rows on the Motions worksheet and, in the folder of the workbook,"
+            " generate motions that reach it from their records: roofslip motion suite"
             " matched --into ."
             f" --records {seeds}"
         )
@@ -105,7 +105,7 @@ def _ways(acceptance: Acceptance, shaking: Shaking) -> str:
 
 
 def _ways_of_drift(missed: Limit, shaking: Shaking) -> str:
-    """Return which records end elsewhere or in motion, and what would do; empty for another."""
+    """Return the records with final displacement or velocity, and the remedy; else empty."""
     if missed.title not in _DRIFT_TITLES:
         return ""
     ids = [
@@ -117,7 +117,7 @@ def _ways_of_drift(missed: Limit, shaking: Shaking) -> str:
 
 
 def drift_limits(prepared: Sequence[PreparedMotion]) -> tuple[Limit, ...]:
-    """Return the limits on where the components of the motions end, and how fast they are then."""
+    """Return the limits on the final displacement and velocity of the components of the motions."""
     # A displacement that a source states to be permanent is no drift; no source makes a record end
     # at a velocity.
     free = [motion for motion in prepared if not motion.drift_basis]
@@ -151,7 +151,7 @@ def drift_limits(prepared: Sequence[PreparedMotion]) -> tuple[Limit, ...]:
 
 
 def _is_spectral(row: Limit) -> bool:
-    """Whether a limit is on a spectrum over its target, or on how many of its points are below."""
+    """Whether a limit is on the ratio of a spectrum to its target, or on the points below it."""
     return row.is_ratio_to_target or (row.measure is Measure.COUNT and not row.is_at_least)
 
 
@@ -201,7 +201,7 @@ LONG_PERIOD_S, MOST_LONG_RATIO = 1.0, 2.0
 
 
 def of_records(data: ProjectInput, prepared: Sequence[PreparedMotion]) -> Iterator[Check]:
-    """Yield whether records end where they began, and ground motions keep to long periods."""
+    """Yield the checks of final displacements, and of ground motions at long periods."""
     for index, motion in enumerate(prepared):
         yield _drift(motion, index)
     yield from _ground_motions(data, prepared)
@@ -230,7 +230,7 @@ def _drift(motion: PreparedMotion, index: int) -> Check:
 
 
 def drifts(prepared: PreparedMotion) -> bool:
-    """Whether any component of a motion ends away from where it began."""
+    """Whether any component of a motion has a final displacement."""
     return any(abs(m.final_displacement_m) > DRIFT_M for m in prepared.measures.values())
 
 

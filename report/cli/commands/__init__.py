@@ -1,4 +1,4 @@
-"""The options of each command, in a module with those beside it; importing one loads click alone.
+"""The options of each command, in a module with related ones; importing one loads only click.
 
-A command imports the module that does its work, in `report.cli`, where it runs.
+A command imports the module that does its work, in `report.cli`, when it runs.
 """

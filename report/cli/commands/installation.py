@@ -24,7 +24,7 @@ def completion(shell: str) -> None:
 
     For bash, run `eval "$(roofslip completion bash)"`, which also completes ./roofslip. For zsh,
     run the same with zsh, after compinit. For fish, run `roofslip completion fish | source`. In zsh
-    and fish, roofslip must be in the PATH.
+    and fish, roofslip must be on the PATH.
     """
     root = click.get_current_context().find_root().command
     script = get_completion_class(shell)

@@ -78,7 +78,7 @@ def convert(file: Path, out: Path, **options: Any) -> None:
               help="Accept two horizontal records without a vertical one as a set.")  # fmt: skip
 @reading
 def rows(source: Path, project: Path | None, **options: Any) -> None:
-    """List the motions in FOLDER or ZIP, sets of three records; add them to a workbook.
+    """List the motions (sets of three records) in FOLDER or ZIP; add them to a workbook.
 
     Ambiguous sets are listed with the reason and are not added. Records are copied into records/
     next to the workbook, unless they are in its folder.
@@ -96,7 +96,7 @@ def rows(source: Path, project: Path | None, **options: Any) -> None:
 @click.option("--mu", type=Number(low=0.0), required=True, help="Friction coefficient.")
 @click.option("--transverse", metavar="RECORD", help="Second horizontal record, acting "
               "cross-slope.")  # fmt: skip
-@click.option("--vertical", metavar="RECORD", help="Vertical record, positive up.")
+@click.option("--vertical", metavar="RECORD", help="Vertical record, positive upward.")
 @click.option(
     "--ppa-g", type=Number("g"), help="Scale all components so that RECORD peaks at this PPA."
 )

@@ -51,9 +51,9 @@ def read(drawing: Path, project: Path, **options: Any) -> None:
     """Import arrays, objects, roof edges and outlines from the closed lines of a DXF.
 
     The Layers worksheet lists the type of each layer; the layers of plan.dxf are known, and types
-    of others are proposed from their names. Names and heights are texts inside the outlines, or
+    of others are proposed from their names. Names and heights are text inside the outlines, or
     attributes of blocks. Equal module-size rectangles are grouped into arrays. Everything else in
-    the workbook is kept. If it has no other errors, clearances are added as by plan clearances.
+    the workbook is kept. If it has no other errors, clearances are added as with plan clearances.
     """
     from report.cli.plan_from_drawing import read_plan
 

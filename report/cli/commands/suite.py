@@ -31,7 +31,7 @@ from report.cli.option_types import SOURCE, Number, reading
               "one motion per file or comma-separated group. Must follow DIR.")  # fmt: skip
 @click.option("--into", metavar="DIR|WORKBOOK", type=SOURCE, help="Add the motions to the Motions "
               "worksheet; DIR must be in the folder of the workbook. Without --sds, --zh, --code, "
-              "--tail and --target, the target is that of the Site worksheet.")  # fmt: skip
+              "--tail and --target, the Site worksheet defines the target.")  # fmt: skip
 @reading
 def suite(folder: Path, more: tuple[str, ...], records: tuple[str, ...], **options: Any) -> None:
     """Generate spectrum-compatible motions in DIR: x, y and z records, suite.json, suite.png.

@@ -1,4 +1,4 @@
-"""The commands that prove: `roofslip verify`, `verify-package`, `sign`."""
+"""The commands for verification: `roofslip verify`, `verify-package`, `sign`."""
 
 from __future__ import annotations
 

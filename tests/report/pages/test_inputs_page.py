@@ -248,7 +248,7 @@ def test_the_values_are_those_of_a_permit_sheet_or_category_e_near_a_fault(full)
 
 def test_equations_and_periods_follow_what_is_given(full):
     row = rows(full)["Ta"]
-    assert row["Description"] == "Approximate period, structure type other"
+    assert row["Description"] == "Approximate period, all other structural systems"
     assert row["Source"] == "assumed"
     row = rows(package({"building": {"structure": "steel moment frame"}}, **FULL))["Ta"]
     # 0.028 x 30^0.8
