@@ -29,7 +29,8 @@ def read_project(source: str | Path) -> Sheet:
     Returns
     -------
     Sheet
-        The workbook as data: `project` has every input, and `with_` gives it other ones.
+        The workbook as data: `project` contains every input, and `with_` returns a copy with
+        changed ones.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def assess_project(source: str | Path | Sheet) -> Assessment:
     Parameters
     ----------
     source : str, Path or Sheet
-        An input workbook, or a folder with `input.xlsx`, or what `read_project` returns.
+        An input workbook, a folder with `input.xlsx`, or the result of `read_project`.
 
     Returns
     -------

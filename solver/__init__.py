@@ -1,7 +1,7 @@
 """The sliding block: exact response of ballasted arrays, and the code rules for their design.
 
-All quantities are SI. Records and motions are taken as they are. Results have `to_frame`, from
-which pandas plots. The public names are those of `solver.public`; imports nothing that lays out
+All quantities are SI. Records and motions can be passed directly. Results have `to_frame`, for
+plots with pandas. The public names are those of `solver.public`; imports nothing that lays out
 pages or draws figures.
 
 Runs:

@@ -1,6 +1,6 @@
-"""Physical bounds of numbers that come from outside.
+"""Physical bounds of input values.
 
-A number beyond them is in another unit, or damaged: it is refused and never computed with. Read
+A value outside them is in another unit or damaged; it is rejected and never used. Read
 `PhysicalBounds`.
 """
 
@@ -11,19 +11,19 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class PhysicalBounds:
-    """The least and the most that a quantity can be."""
+    """The smallest and largest possible values of a quantity."""
 
     least: float
     most: float
     unit: str
 
     def has(self, value: float) -> bool:
-        """Whether a value is within; NaN and infinities are not."""
+        """Whether a value is within the bounds; NaN and infinities are not."""
         return self.least <= value <= self.most
 
     @property
     def words(self) -> str:
-        """Both, as a message shows them."""
+        """Both bounds, as shown in a message."""
         return f"{self.least:g} to {self.most:g} {self.unit}"
 
 

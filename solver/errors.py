@@ -1,6 +1,6 @@
-"""The two kinds of error: what the user can fix, all of it at once, and a defect.
+"""The two types of error: input errors, all reported at once, and internal errors.
 
-`InputError("dt_s is -0.1; use a number of seconds above 0")` has one problem, whose remedy is
+`InputError("dt_s is -0.1; use a number of seconds above 0")` contains one problem; its remedy is
 `use a number of seconds above 0`.
 """
 
@@ -38,7 +38,7 @@ class Problem:
 
     @property
     def text(self) -> str:
-        """What was found and what would do."""
+        """What was found, and the remedy."""
         return f"{self.found}; {self.remedy}" if self.remedy else self.found
 
     def __str__(self) -> str:
@@ -69,7 +69,7 @@ class DefectError(RuntimeError):
 
 
 def raise_any(problems: Iterable[str]) -> None:
-    """Raise the first problems with a count of the others, if there are any."""
+    """Raise the first problems and the number of the others, if there are any."""
     remaining = iter(problems)
     listed = list(islice(remaining, _MAX_LISTED))
     if listed:

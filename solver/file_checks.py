@@ -1,4 +1,4 @@
-"""Files and paths that others name: read once, within a folder, the same on every system.
+"""Files and paths from user input: read once, within a folder, the same on every system.
 
     within(folder, "records/quake.at2")     the path below the folder
     within(folder, "../quake.at2")          InputError, and for "con" or "a:b" likewise
@@ -30,7 +30,7 @@ _DEVICE = re.compile(
 
 
 def read_file(path: Path, limit: int, name: str = "", *, too_large: str = "") -> bytes:
-    """Return the content of a file that a user names, opened and read once.
+    """Return the content of a file named by the user, opened and read once.
 
     Messages begin with `name` where a command is about another file, and say what to do with one
     that is too large.
@@ -65,12 +65,12 @@ def read_file(path: Path, limit: int, name: str = "", *, too_large: str = "") ->
 
 
 def _open_at_once(path: str, flags: int) -> int:
-    """Open a file without waiting for who writes to it."""
+    """Open a file without waiting for its writer."""
     return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def within(folder: Path, name: str) -> Path:
-    """Return the path below a folder that a name from elsewhere stands for, on every system.
+    """Return the path below a folder for a name from user input, on every system.
 
     Raises
     ------
@@ -106,14 +106,14 @@ def _wrong(name: str, parts: Sequence[str]) -> str:
 
 
 def printable(name: str) -> str:
-    """Return the beginning of a name from elsewhere as it may be printed."""
+    """Return the beginning of an input name in printable form."""
     return _FORBIDDEN.sub("?", name)[:60]
 
 
 def check_plain(
     path: Path, within: Path, *, is_folder: bool = False, in_place: bool = False
 ) -> None:
-    """Refuse what a stranger may have put where a file or folder is written, below a given folder.
+    """Reject anything unexpected where a file or folder is written, below a given folder.
 
     Raises
     ------
@@ -145,7 +145,7 @@ def check_plain(
 
 
 def check_length(path: Path) -> None:
-    """Refuse a path that is too long for Windows, which says no more than that it is not there.
+    """Reject a path that is too long for Windows, which would only report it as missing.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Files written whole, one or a set, by one process at a time; no link in their places is followed.
+"""Atomic writes of one file or a set, by one process at a time; links are not followed.
 
 What the files of a package are: `report.results.publish`. Read `write_all`, then `locked`.
 """

@@ -47,7 +47,7 @@ def friction_demand(scene: Scene) -> float:
 
 
 def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
-    """Return the record along, across and up [m/s2]; zeros for what it does not have."""
+    """Return the record along, across and up [m/s2]; zeros for missing components."""
     across, up = (
         record if record.size else _still(scene.ax_mps2.size)
         for record in (scene.ay_mps2, scene.az_mps2)

@@ -56,7 +56,7 @@ class Surface(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FrictionRun:
-    """One run of a friction test: what is not reported of it is NaN."""
+    """One run of a friction test; values that are not reported are NaN."""
 
     report: str  # that contains the run
     surface: Surface

@@ -1,4 +1,4 @@
-"""The model of a run: friction, motion and scene, and the result, all frozen.
+"""Data types of a run: friction, motion, scene and result, all frozen.
 
 Contains no mathematics and reads no files. Read `solver.sliding.checked` next.
 """
@@ -37,7 +37,7 @@ class Status(StrEnum):
 
     @property
     def sentence(self) -> str:
-        """The outcome in words."""
+        """The outcome as a phrase."""
         return _SENTENCES[self]
 
 
@@ -81,7 +81,7 @@ class SlideResult:
     end_speed_mps : float
         Horizontal relative velocity at the end of the record [m/s].
     peak_speed_mps : float
-        Largest sliding speed [m/s], along the surface of the roof as friction has it; NaN by the
+        Largest sliding speed [m/s], along the surface of the roof as in the friction law; NaN by
         methods other than `exact`.
     error_m : float
         Largest difference of any displacement from the exact motion under the interpolated record
@@ -110,7 +110,7 @@ class SlideResult:
 
     @property
     def words(self) -> str:
-        """The result in one line for a reader."""
+        """One-line summary of the result."""
         if math.isnan(self.prd_m):
             return self.status.sentence
         if self.prd_m == 0.0:
@@ -124,7 +124,7 @@ class SlideResult:
         return f"PRD {1e3 * self.prd_m:.1f} mm{when}, {end} at the end, {stops}, {self.status}"
 
     def __eq__(self, other: object) -> bool:
-        """Whether every value is equal; one that is NaN in both is, in every version of Python."""
+        """Whether all values are equal; NaN equals NaN, in every version of Python."""
         return isinstance(other, SlideResult) and self._values == other._values
 
     def __hash__(self) -> int:
@@ -253,7 +253,7 @@ def coulomb(mu: float) -> Friction:
     Raises
     ------
     Nothing
-        The function that takes the friction checks it.
+        The function that receives the friction checks it.
 
     Examples
     --------
@@ -267,8 +267,8 @@ def coulomb(mu: float) -> Friction:
 class Accelerations:
     """The acceleration of a roof, evenly sampled, with a factor on all its components.
 
-    Horizontal, across that, and vertical (positive up), unscaled, shape (n,), read-only; ay or az
-    has shape (0,) if there is none.
+    Horizontal, transverse, and vertical (positive upward), unscaled, shape (n,), read-only; ay or
+    az has shape (0,) if there is none.
     """
 
     dt_s: float
@@ -279,12 +279,12 @@ class Accelerations:
 
     @property
     def components(self) -> dict[str, Floats]:
-        """The components that there are by the names x, y and z, unscaled [m/s2]."""
+        """The existing components by the names x, y and z, unscaled [m/s2]."""
         arrays = {"x": self.ax_mps2, "y": self.ay_mps2, "z": self.az_mps2}
         return {name: a for name, a in arrays.items() if len(a)}
 
     def scaled(self, unscaled: Floats) -> Floats:
-        """Return a component as run, or what is proportional to one, such as its spectrum."""
+        """Return a component, or a quantity proportional to it such as its spectrum, as run."""
         return self.scale * unscaled
 
 

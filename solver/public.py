@@ -1,4 +1,4 @@
-"""The public names of the solver, which `import solver` offers."""
+"""The public names of the solver, available after `import solver`."""
 
 from solver.building.roof import at_roof
 from solver.building.structure import Building, building_of_periods

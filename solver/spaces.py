@@ -17,5 +17,5 @@ def equation(letter: str, value: float, unit: str = "") -> str:
 
 
 def spaced(text: str) -> str:
-    """Return a text with ordinary spaces, as all have it but pages."""
+    """Return a text with ordinary spaces, as used everywhere except on pages."""
     return text.replace(NO_BREAK, " ")

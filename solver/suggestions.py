@@ -1,4 +1,4 @@
-"""Names that refer to something that is not there, and what may have been meant."""
+"""Suggestions for names that do not exist."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ _LOCKS = ("~$", ".~lock.")  # of workbooks that a program has open
 
 
 def nearest(value: str, names: Iterable[str], taken: Collection[str] = ()) -> str:
-    """Return the name that is spelled as a value but for case, blanks, hyphens and leading zeros.
+    """Return the name equal to a value except for case, blanks, hyphens and leading zeros.
 
-    Else the one that is spelled nearly so; of very many or long names, those that begin alike are
-    compared. Of several as near it is the one that is not taken; empty for none, and for several.
+    Otherwise the closest spelling; among very many or long names, only those with the same
+    beginning are compared. Of several equally close names, the one not yet used; empty if there is
+    none or more than one.
     """
     key, plain = _plain(value), {name: _plain(name) for name in names}
     close = [name for name, plain_name in plain.items() if plain_name == key]
@@ -48,7 +49,7 @@ def _plain(name: str) -> str:
 
 
 def meant(path: Path) -> str:
-    """Ask for the path that nearly fits one that does not exist; empty for none.
+    """Suggest an existing path close to one that does not exist; empty if there is none.
 
     Of its parts the first that is not there is compared with what is in its folder.
     """

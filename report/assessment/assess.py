@@ -1,8 +1,8 @@
-"""Assesses a project under its motions: arrays, clearances, and what would change the verdict.
+"""Assesses a project under its motions: arrays, clearances, and changes of the verdict.
 
-Orders the work and collects the results; computes no physics (`report.runs`) and reads
-no code rule itself (`solver.rules.provisions`). Whatever else an input could be, it is assessed
-by `assess` from the same runs. Read `assess`, then `reassess`.
+Orders the work and collects the results; computes no physics (`report.runs`) and reads no code rule
+itself (`solver.rules.provisions`). Other possible inputs are also assessed by `assess`, from the
+same runs. Read `assess`, then `reassess`.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from solver.records.acceptance import Acceptance
 
 
 class Extent(IntEnum):
-    """How much is assessed beside arrays and clearances; each has what those before it have."""
+    """Scope of an assessment beyond arrays and clearances; each value includes those before it."""
 
     ALONE = 0  # nothing: of another input that a project is compared with
     AS_GIVEN = 1  # rows of linked blocks, and the low-velocity coefficient alone
@@ -49,9 +49,10 @@ def assess(
     acceptance: Acceptance | None = None,
     extent: Extent = Extent.WHOLE,
 ) -> Assessment:
-    """Assess a project under its motions, with the runs that there are and those that it lacks.
+    """Assess a project under its motions, with existing runs and those still missing.
 
-    The `acceptance` of the motions is computed unless it is known. Raises as `rule_set_of`.
+    The `acceptance` of the motions is computed unless it is known. Raises the errors of
+    `rule_set_of`.
     """
     # Before everything else, and once the records are read, whose hashes it takes: a peer review
     # of other inputs removes no floor, and a confirmation of other inputs no mark.
@@ -141,7 +142,7 @@ def reassess(
 
 
 def entered(done: Assessment, project: ProjectInput) -> Assessment | None:
-    """Assess a changed input under the same motions; None where `check` would refuse it."""
+    """Assess a changed input under the same motions; None if `check` would reject it."""
     if refused(done.project, project):
         return None
     known = outdated(project, done.shaking.hashes)
@@ -151,7 +152,7 @@ def entered(done: Assessment, project: ProjectInput) -> Assessment | None:
 
 
 def refused(data: ProjectInput, changed: ProjectInput) -> list[Finding]:
-    """Return what `check` refuses of a changed input and not of the one given."""
+    """Return the errors that `check` finds in a changed input but not in the original one."""
     before = _faults(data)
     return [fault for fault in _faults(changed) if fault not in before]
 

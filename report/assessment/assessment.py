@@ -1,4 +1,4 @@
-"""An assessed project as one record: arrays, clearances, checks, and what they come to.
+"""An assessed project as one record: arrays, clearances, checks and the verdict.
 
 Runs nothing: `report.assessment.assess` does.
 """
@@ -48,7 +48,7 @@ class LowVelocityAssessment:
     clearances: Mapping[int, ClearanceCheck]
 
     def of(self, array_id: str) -> ArrayAssessment | None:
-        """Return an array; None where its friction does not depend on velocity."""
+        """Return an array; None if its friction does not depend on velocity."""
         return next((item for item in self.arrays if item.id == array_id), None)
 
 
@@ -56,7 +56,7 @@ NOT_BY_VELOCITY = LowVelocityAssessment(arrays=(), clearances={})
 
 
 def low_velocity(done: Assessment, slow: Assessment) -> LowVelocityAssessment:
-    """Return what an assessment of `with_low_velocity` has of the arrays that it changes."""
+    """Return the arrays changed by `with_low_velocity`, as assessed with it."""
     ids = {array.id for array in done.project.arrays if array.friction.is_by_velocity}
     return LowVelocityAssessment(
         arrays=tuple(item for item in slow.arrays if item.id in ids),
@@ -71,7 +71,7 @@ def low_velocity(done: Assessment, slow: Assessment) -> LowVelocityAssessment:
 
 @dataclass(frozen=True, kw_only=True)
 class Assessment:
-    """What was assessed, and what came of it."""
+    """An assessed project and the results."""
 
     project: ProjectInput  # as assessed: that of the workbook, or a changed one
     source: WorkbookSource  # the workbook, of which cells and files are printed
@@ -95,17 +95,17 @@ class Assessment:
 
     @cached_property
     def checks(self) -> tuple[Check, ...]:
-        """Everything that is required, satisfied or not: the verdicts are the worst of it."""
+        """All requirements, satisfied or not; the verdicts are the worst of them."""
         return (*every(self), *self.more)
 
     @cached_property
     def displacements(self) -> Mapping[str, Displacement]:
-        """How far each array may slide, by its id."""
+        """Displacement of each array, by its id."""
         return {item.id: item.displacement for item in self.arrays}
 
     @cached_property
     def pairs(self) -> tuple[PlanNeighbor, ...]:
-        """What the plan shows beside each array, with its clearances."""
+        """Items on the plan next to each array, with its clearances."""
         largest_m = largest_separation_m(self.project, self.rules, self.arrays)
 
         def required(near: PlanNeighbor) -> tuple[float, str]:
@@ -118,7 +118,7 @@ class Assessment:
 
     @cached_property
     def neighbors(self) -> tuple[PlanNeighbor, ...]:
-        """What the plan shows near each array, or what a clearance is given to."""
+        """Items on the plan near each array, or with a clearance entered."""
         return tuple(pair for pair in self.pairs if pair.is_listed)
 
     @cached_property
@@ -132,7 +132,7 @@ class Assessment:
 
     @property
     def has_motions(self) -> bool:
-        """Whether there is an analysis; without one, every array takes the prescriptive route."""
+        """Whether there is an analysis; otherwise every array uses the prescriptive procedure."""
         return bool(self.shaking.motions)
 
     @property
@@ -156,13 +156,13 @@ class Assessment:
 
     @property
     def open(self) -> Sequence[Check]:
-        """What is NG, then the conditions; those that ask the same of several are one."""
+        """NG items, then the conditions; identical ones of several subjects are combined."""
         checks = [check for check in self.checks if check.is_open]
         return alike(sorted(checks, key=lambda check: -severity(check.verdict)))
 
     @property
     def notes(self) -> Sequence[Check]:
-        """What is not satisfied on the analysis, where nothing follows from it; of no limit."""
+        """Unsatisfied requirements on the analysis that have no consequence, other than limits."""
         notes = (check for check in self.checks if check.verdict is Verdict.NOTE)
         return [check for check in notes if check.id not in self.rules.values]
 
@@ -178,12 +178,12 @@ class Assessment:
         )
 
     def against_analysis(self, item: ArrayAssessment) -> Sequence[str]:
-        """Return what does not permit the analysis of an array, in a few words each."""
+        """Return the short reasons why the analysis of an array is not permitted."""
         count = len(self.shaking.motions)
         return against_analysis(self.project, self.rules, item.limits, self.acceptance, count)
 
     def is_rigid_enough(self, item: ArrayAssessment) -> bool:
-        """Whether one rigid block is adequate for an array, where the workbook asks."""
+        """Whether one rigid block is adequate for an array, if the workbook requests this check."""
         return all(row.is_rigid_enough for row in self.linked if row.design.id == item.id)
 
     def gaps_of(self, array_id: str) -> Sequence[ClearanceCheck]:
@@ -191,7 +191,7 @@ class Assessment:
         return [gap for gap in self.clearances if gap.involves(array_id)]
 
     def governing_gap(self, array_id: str = "") -> ComparedGap | None:
-        """Return the gap with the largest D/C, of equal ones what lacks most; None for none."""
+        """Return the gap with the largest D/C, of equal ones the largest deficit; None if none."""
         # Pairs that the plan shows to be short and no clearance covers are gaps as well.
         gaps: Sequence[ComparedGap] = (*self.clearances, *self.missing_gaps)
         concerned = [gap for gap in gaps if not array_id or gap.involves(array_id)]
@@ -203,7 +203,7 @@ class Assessment:
 
 
 def _required_separation(done: Assessment, near: PlanNeighbor) -> tuple[float, str]:
-    """Return the separation that the rule set requires of a pair of the plan [m], and its mark."""
+    """Return the separation required by the rule set for a pair on the plan [m], and its mark."""
     required_m = _separation_of_pair_m(done, near)
     if done.adopted is None:
         return required_m, ""

@@ -1,6 +1,6 @@
 """The checks that govern an assessment, and those that give an array its verdict.
 
-Draws no verdict: the checks do (`report.assessment.checks`). Read `failed`, then `governing_words`.
+Gives no verdict: the checks do (`report.assessment.checks`). Read `failed`, then `governing_words`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ MOST_NAMED = 4
 
 
 def failed(done: Assessment) -> Sequence[Check]:
-    """Return what is NG, the worst first, without what follows from no displacement."""
+    """Return NG items, the worst first, without consequences of a missing displacement."""
     of_all = [check for check in done.open if check.verdict is Verdict.NG]
     # Only of what lacks nothing but a design displacement another check says why.
     causes = [check for check in of_all if not check.lacks_design] or of_all
@@ -30,7 +30,7 @@ def failed(done: Assessment) -> Sequence[Check]:
 
 
 def largest(done: Assessment) -> Sequence[Check]:
-    """Return of each kind of capacity that is satisfied the check with the largest ratio."""
+    """Return the check with the largest ratio for each type of satisfied capacity."""
     satisfied = (
         check
         for check in done.checks
@@ -41,25 +41,25 @@ def largest(done: Assessment) -> Sequence[Check]:
 
 
 def governing_words(done: Assessment) -> str:
-    """Return what is NG in a few words each, or else the clearance with the largest ratio."""
+    """Return short names of the NG items, or else the clearance with the largest ratio."""
     clearance = [check for check in largest(done) if check.id == "clearance"]
     return "; ".join(named(failed(done) or clearance))
 
 
 def came_to(done: Assessment) -> str:
-    """Return the verdict on a project with what governs, such as `OK, clearance A1 to A2 …`."""
+    """Return the verdict on a project with what governs, e.g. `OK, clearance A1 to A2 …`."""
     return ", ".join(filter(None, (done.verdict.value, governing_words(done))))
 
 
 def named(checks: Sequence[Check]) -> Sequence[str]:
-    """Return the first few checks in a few words each, and how many more there are."""
+    """Return short names of the first few checks, and the number of others."""
     count = len(checks) - MOST_NAMED
     further = [numbered(count, "more check")] if count > 0 else []
     return [*map(words, checks[:MOST_NAMED]), *further]
 
 
 def causes(assessment: Assessment, item: ArrayAssessment) -> Sequence[str]:
-    """Return what gives an array its verdict, in a few words each; nothing for OK."""
+    """Return the short causes of the verdict on an array; nothing for OK."""
     verdict = assessment.array_verdict(item)
     of_array = [check for check in assessment.checks if item.id in check.arrays]
     checks = alike(check for check in of_array if check.is_open and check.verdict is verdict)

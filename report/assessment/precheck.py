@@ -1,4 +1,4 @@
-"""What is known of a project before any run: limits, requirements, warnings on the input.
+"""Findings on a project before any run: limits, requirements, warnings on the input.
 
 Runs nothing. Read `findings` and `limits_before_runs`.
 """
@@ -50,7 +50,7 @@ MOST_NAMED = 50
 
 
 def findings(source: WorkbookSource, data: ProjectInput, shaking: Shaking) -> tuple[Finding, ...]:
-    """Return what an engineer is asked about, with the reasons that the workbook gives."""
+    """Return the warnings that an engineer must answer, with the reasons in the workbook."""
     hidden = [*source.unseen, *chain.from_iterable(file.unseen for file in shaking.records)]
     of_input = [*implausible(data), *record_findings(data, shaking)]
     return acknowledged(data, [*source.warnings, *warnings(hidden), *of_input])
@@ -112,7 +112,7 @@ def _finding(check: Check, us_first: bool) -> Finding:
 
 
 def _not_run(data: ProjectInput) -> Iterator[Finding]:
-    """Yield what a workbook without motions asks for and only runs can give."""
+    """Yield requests of a workbook without motions that only runs can fulfill."""
     asked = (
         (Place("links"), "the comparison with a row of linked blocks", bool(data.links)),
         (Place("options", 0, "smaller_events"), "the sum including smaller events",

@@ -1,8 +1,8 @@
-"""What a project comes to where a condition is not met: each is taken out of its input.
+"""Result for a project if a condition is not met: each is removed from its input in turn.
 
 `Without peer review: NG, clearance A1 to A2 (D/C 1.20); Δ up to 30.0 in (762 mm).`
 
-Runs nothing: `report.assessment.assess` assesses the inputs, with the runs that it has. Read
+Runs nothing: `report.assessment.assess` assesses the inputs from existing runs. Read
 `prices`.
 """
 
@@ -30,7 +30,7 @@ _REVIEW, _RULE_SET = "peer_review", "rule_set"
 def prices(
     done: Assessment, reassess: Callable[[Assessment, ProjectInput, Collection[str]], Assessment]
 ) -> Mapping[str, str]:
-    """Return what a project comes to without what checks ask for, by their ids.
+    """Return the result for a project without the items required by checks, by their ids.
 
     Of checks that are open, where a displacement or a verdict is another one then; of a peer
     review and a letter of acceptance on file, and of friction by velocity, too. `reassess` is
@@ -78,7 +78,7 @@ def _others(
 
 
 def _price(done: Assessment, changed: Assessment, how: str) -> str:
-    """Return what an input comes to as a sentence; none where it changes nothing."""
+    """Return the result of an input as a sentence; none if it changes nothing."""
     # What a row of linked blocks does is not run again.
     linked = [replace(row, design=by_id(changed.arrays, row.design.id)) for row in done.linked]
     changed = replace(changed, linked=tuple(linked))

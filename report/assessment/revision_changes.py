@@ -1,4 +1,4 @@
-"""What changed since a former revision of a package."""
+"""Changes since a previous revision of a package."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from enum import StrEnum
 
 
 class ChangeKind(StrEnum):
-    """What changed, in the order of the page."""
+    """Type of change, in the order of the page."""
 
     RULES = "rule set"
     SOFTWARE = "software"
@@ -35,7 +35,7 @@ class Change:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Changes:
-    """Everything that changed since a former revision."""
+    """All changes since a previous revision."""
 
     # of the former package
     revision: str = ""
@@ -48,7 +48,7 @@ class Changes:
 
     @property
     def is_asked_for(self) -> bool:
-        """Whether a former revision was named."""
+        """Whether a previous revision was specified."""
         return bool(self.revision)
 
     @property

@@ -18,7 +18,7 @@ from solver.errors import InputError
 
 
 def fill_clearances(project: Path) -> None:
-    """Add a row for each pair of the plan that a package would require, and print them."""
+    """Add a row for each pair on the plan that a package would require, and print the rows."""
     with input_errors(project), changing(project) as change:
         lines = [*add_clearances(change), *withdrawn(change)]
     for line in lines:

@@ -1,4 +1,4 @@
-"""What the commands print: plain lines, verdicts and levels in color, JSON; their exit codes."""
+"""Output of the commands: plain lines, verdicts and levels in color, JSON; exit codes."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def colored(line: str) -> str:
 
 
 def color_choice() -> bool | None:
-    """Return whether to color: not with NO_COLOR or where the terminal has none; else by click."""
+    """Return whether to color: not with NO_COLOR or without terminal support; else by click."""
     # NO_COLOR counts if it is not empty (no-color.org).
     return False if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" else None
 
@@ -67,7 +67,7 @@ _UNSAFE = re.compile(r"[\x00-\x1f\x7f-\x9f\u200e\u200f\u2028-\u202e\u2066-\u2069
 
 
 def plain(text: object) -> str:
-    """Return a text as a terminal may show it: with spaces, no control characters, not too long."""
+    """Return a text suitable for a terminal: with spaces, no control characters, not too long."""
     line = _UNSAFE.sub("?", spaced(str(text)))
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]}..."
 
@@ -89,7 +89,7 @@ def print_json(document: Any) -> None:
 
 
 def say_next(project: Path, has_formulas: bool) -> None:
-    """Say what comes after cells of a workbook were filled in."""
+    """Print the next step after cells of a workbook were filled in."""
     click.echo(f"Next: {command('check', project)}")
     if has_formulas:
         click.echo(

@@ -34,7 +34,7 @@ FileStamps = set[tuple[str, int, int]]
 
 
 def watch_project(source: Path, out: Path | None, interrupts: Sequence[int]) -> NoReturn:
-    """Report, and again after every save, until Ctrl+C, which `interrupts` grows with."""
+    """Report, and again after every save, until Ctrl+C adds to `interrupts`."""
     with input_errors(source):
         workbook, results = located(source), b""
     while not interrupts:
@@ -53,7 +53,7 @@ def watch_project(source: Path, out: Path | None, interrupts: Sequence[int]) -> 
 
 
 def report_again(workbook: Path, out: Path | None, earlier: bytes) -> bytes:
-    """Report, print what changed since the former results.json, and return the new one."""
+    """Report, print changes since the previous results.json, and return the new one."""
     made = package(workbook, out)
     show(made)
     if earlier:
@@ -66,7 +66,7 @@ def report_again(workbook: Path, out: Path | None, earlier: bytes) -> bytes:
 
 
 def settled(workbook: Path) -> FileStamps:
-    """Wait until a workbook opens and no file changes, if that comes; return `file_stamps`."""
+    """Wait until a workbook opens and no file changes, if ever; return `file_stamps`."""
     for _ in range(MAX_POLLS):
         stamps = file_stamps(workbook.parent)
         time.sleep(POLL_S)

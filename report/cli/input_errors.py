@@ -1,9 +1,9 @@
-"""Errors of the input, as a command prints them: one problem per line, or JSON.
+"""Printing of input errors by a command: one problem per line, or JSON.
 
     with input_errors(source):
         sheet = read(source)
 
-Also the outputs of an earlier run, which an error leaves as they are.
+Also lists the outputs of an earlier run, which an error leaves unchanged.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ def input_errors(
 ) -> Iterator[None]:
     """Print input errors, one problem per line or as JSON, and exit with code 2.
 
-    So with what the system refuses, such as a file without permission or a folder that is gone.
-    Outputs of an earlier run that are there are named.
+    The same for operating system errors, such as a file without permission or a missing folder.
+    Existing outputs of an earlier run are listed.
     """
     try:
         yield
@@ -58,19 +58,19 @@ def _refuse(
 
 
 def workbook_of(source: Path) -> Path:
-    """Return the workbook that a command is given, by itself or by its folder."""
+    """Return the workbook passed to a command, as a file or by its folder."""
     # Unlike `Path.is_dir`, it raises nothing where a name is too long.
     return source / "input.xlsx" if os.path.isdir(source) else source
 
 
 def outputs_of(source: Path, out: Path | None) -> tuple[Path, ...]:
-    """Return where the package and the tables of a workbook are written."""
+    """Return the paths of the package and the tables of a workbook."""
     folder = out or workbook_of(source).parent / "out"
     return tuple(folder / name for name in OUTPUTS)
 
 
 def say_earlier_outputs(outputs: Sequence[Path]) -> None:
-    """Say which outputs are there from an earlier run, after one that has not replaced them."""
+    """Print which outputs are from an earlier run, after a run that has not replaced them."""
     # Files of an earlier run look like those of this one, which has none.
     files = [path for path in outputs if os.path.isfile(path)]
     if not files:
@@ -82,7 +82,7 @@ def say_earlier_outputs(outputs: Sequence[Path]) -> None:
 
 
 def document(source: Path, problems: Sequence[Problem] = ()) -> dict[str, Any]:
-    """Return what every document about a workbook has: which one it is, and its errors."""
+    """Return the common part of every JSON document about a workbook: its path and its errors."""
     return {
         "schema_version": SCHEMA_VERSION,
         "workbook": str(source),
@@ -101,7 +101,7 @@ def say_problems(source: Path, problems: Sequence[Problem]) -> None:
 
 
 def system_problem(error: OSError) -> Problem:
-    """Return what the system refuses, as a problem of an input."""
+    """Return an operating system error as a problem of an input."""
     reason = error.strerror or error
     if not error.filename:
         return Problem(
@@ -115,7 +115,7 @@ def system_problem(error: OSError) -> Problem:
 
 
 def _place() -> str:
-    """Return where temporary files are, if there is such a place."""
+    """Return the folder of temporary files, if there is one."""
     try:
         return f" in {tempfile.gettempdir()}"
     except OSError:

@@ -1,6 +1,6 @@
-"""Whether all that a package needs is installed, and what to install where it is not.
+"""Checks that everything a package needs is installed, and states what to install.
 
-Imports what it checks only where it checks it: that an import fails is a finding.
+Imports each library only when it is checked, because a failed import is a finding.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def check_installation() -> None:
 
 
 def _checks() -> Iterator[tuple[str, Callable[[], str | None], str]]:
-    """Yield each check: a name, what finds it, and what to do where it finds nothing or fails."""
+    """Yield each check: a name, a function that performs it, and the remedy if it fails."""
     yield "Python", _python_and_system, ""
     yield "cores", partial(str, os.cpu_count()), ""
     launcher = os.path.join(".", "roofslip")

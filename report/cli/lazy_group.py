@@ -1,9 +1,9 @@
-"""A group of commands that imports the module of a command when it is asked for.
+"""A group of commands that imports the module of a command on first use.
 
     main.add_section("Package", "report.cli.commands.project:report")
 
-A module of `report.cli.commands` has the options of a command, and imports what does its work only
-where it runs: help and completion import no more than click.
+A module of `report.cli.commands` contains the options of a command and imports the code that does
+its work only when it runs; help and completion import only click.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import click
 
 
 class LazyGroup(click.Group):
-    """A group whose commands stand under titles, each given by its module and function."""
+    """A group whose commands are listed under titles, each given by its module and function."""
 
     def __init__(self, **options: object) -> None:
         super().__init__(**options)  # type: ignore[arg-type]
@@ -44,7 +44,7 @@ class LazyGroup(click.Group):
         return list(self._modules)
 
     def every(self) -> Mapping[str, click.Command]:
-        """Return all commands by name, in the order in which they are listed."""
+        """Return all commands by name, in listed order."""
         context = click.Context(self)
         commands = {}
         for name in self._modules:

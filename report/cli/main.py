@@ -1,7 +1,7 @@
-"""The command line: every command by the module of its options, each loaded when it is asked for.
+"""The command line: every command by the module of its options, each loaded on first use.
 
-Only the modules of `report.cli` print and catch. Read `report.cli.one_package` for the way
-from workbook to package.
+Only the modules of `report.cli` print and catch. Read `report.cli.one_package` for the steps from
+workbook to package.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from report.text.command_line import called
 
 
 class _Commands(LazyGroup):
-    """The group of all commands, which says so where what it prints cannot be written."""
+    """The group of all commands; reports if its output cannot be written."""
 
     def main(self, *arguments: Any, **options: Any) -> Any:
         """Run a command; a full disk under the output ends with a message and exit code 2.
@@ -51,7 +51,7 @@ class _Commands(LazyGroup):
             sys.exit(INPUT_ERROR)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Invoke a command that Ctrl+C may cut off."""
+        """Invoke a command that Ctrl+C may interrupt."""
         with interrupts() as received:
             ctx.obj = received  # for a command that goes on after errors
             try:

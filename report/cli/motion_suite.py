@@ -46,7 +46,7 @@ def generate_suite(
 ) -> None:
     """Write the records of a suite to a folder, and list them in a workbook if one is given.
 
-    `spectrum` are `s_ds_g`, `z_over_h`, `code` and `tail`, None where they are not given.
+    `spectrum` are `s_ds_g`, `z_over_h`, `code` and `tail`; None if not given.
     """
     # What comes before the first motion takes no share, so that the time left is theirs.
     shares = (0.0, *[1.0] * count, 1.0)
@@ -88,7 +88,7 @@ def generate_suite(
 def _targets(
     options: dict[str, Any], target: str | None, sheet: Sheet | None
 ) -> tuple[SuiteTargets, list[str]]:
-    """Return the target of a suite, and what of it is from which cells of a workbook."""
+    """Return the target of a suite, and the workbook cells that its values are from."""
     # Any of the options makes a target of its own; half of a site and half of options would be
     # nobody's.
     if sheet and not options and not target:

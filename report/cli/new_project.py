@@ -1,4 +1,4 @@
-"""What `roofslip new` writes: a workbook and the folder of its records."""
+"""Output of `roofslip new`: a workbook and the folder of its records."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from solver.file_writing import add_folder, write_all
 
 
 def new_project(folder: Path, units: str, *, is_example: bool, is_study: bool) -> None:
-    """Write a workbook and its records folder, and print what is next."""
+    """Write a workbook and its records folder, and print the next step."""
     with input_errors(folder):
         path = _write(folder, UnitsFirst(units), is_example=is_example, is_study=is_study)
     if is_example:

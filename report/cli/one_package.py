@@ -1,4 +1,4 @@
-"""One package: made, with what `roofslip report` prints of it."""
+"""Builds one package, and prints the summary of `roofslip report`."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def package(
     on_record: Callable[[str], None] | None = None,
     has_page: bool = True,
 ) -> Made:
-    """Make a package as `make` does; an input error is printed, and ends with exit code 2."""
+    """Build a package with `make`; print input errors and exit with code 2."""
     with (
         input_errors(source, as_json=as_json, outputs=outputs_of(source, out)),
         Progress(STEPS, quiet=quiet) as progress,
@@ -81,7 +81,7 @@ def show(made: Made) -> None:
 
 
 def warn_of_other_packages(written: Path) -> None:
-    """Warn of packages beside a new one that are of another input."""
+    """Warn of packages next to a new one that are from another input."""
     packages = sorted(path for path in written.parent.glob("*.pdf") if path.name != written.name)
     if packages:
         # An extra, which a report imports only here: it takes most of a second.

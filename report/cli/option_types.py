@@ -1,4 +1,4 @@
-"""Values of options: numbers in their unit, and files and folders that must be there.
+"""Values of options: numbers in their unit, and files and folders that must exist.
 
 An error names the option as it was given, the value with its unit, and what is accepted. Options of
 several commands are here as well.
@@ -63,13 +63,13 @@ TIME_STEP = Number("s", 0.0, is_open=True)
 
 
 class Existing(click.Path):
-    """A file or folder that is there."""
+    """An existing file or folder."""
 
     def __init__(self, **kinds: bool) -> None:
         super().__init__(exists=True, path_type=Path, **kinds)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path; ask for the one that may have been meant."""
+        """Return the path; suggest a similar one if it does not exist."""
         path = Path(value)
         if not path.exists() and (asked := meant(path)):
             self.fail(f"'{path}' does not exist; {asked}", param, ctx)

@@ -1,4 +1,4 @@
-"""Makes a package again from the input inside it and compares the bytes; signs a package."""
+"""Regenerates a package from its embedded input and compares the bytes; signs a package."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def prove(
 
 @contextmanager
 def _ended_by_signals() -> Iterator[None]:
-    """Have SIGTERM end the command as Ctrl+C does, so that its files are removed."""
+    """Let SIGTERM end the command like Ctrl+C, so that its files are removed."""
     handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         yield
@@ -77,7 +77,7 @@ def _ended_by_signals() -> Iterator[None]:
 def _proof(
     file: Path, data: bytes, records: Path | None, progress: Progress
 ) -> tuple[Proof, bytes]:
-    """Return the outcome, and the package made again if it was."""
+    """Return the outcome, and the regenerated package if there is one."""
     if os.path.lexists(file.parent / STAMP):
         warn_if_mixed(file.parent, OUTPUTS)
     try:
@@ -149,7 +149,7 @@ def sign_package(
 
 
 def _typed_password() -> str:
-    """Return the password that is typed; without a terminal nobody can."""
+    """Return the typed password; not possible without a terminal."""
     with warnings.catch_warnings():
         # Without a terminal, getpass would warn and read what others can see.
         warnings.simplefilter("error", GetPassWarning)

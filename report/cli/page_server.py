@@ -90,14 +90,14 @@ def serve_page(
 
 
 def _print_more(page: str, keys: Keys) -> None:
-    """Print an address for each line that is typed."""
+    """Print a new address for each line typed."""
     # Not `sys.stdin`: a thread that waits in it holds up the end of the program.
     while os.read(sys.stdin.fileno(), 1000):
         click.echo(f"{page}?token={keys.token()}")
 
 
 def names_of(host: str | None, port: int) -> tuple[str, Sequence[str]]:
-    """Return the name in the address, and the values of Host that are answered; none for any."""
+    """Return the name in the address, and the accepted values of Host; none if any is accepted."""
     # A browser leaves out the port of HTTP.
     end = "" if port == HTTP_PORT else f":{port}"
     if host is None:
@@ -114,7 +114,7 @@ def names_of(host: str | None, port: int) -> tuple[str, Sequence[str]]:
 
 
 def _token(file: Path) -> str:
-    """Return the token of a file; exit where it is too short, or no part of an address."""
+    """Return the token of a file; exit if it is too short or cannot be part of an address."""
     with input_errors(file):
         token = read_file(file, MAX_TOKEN).decode(errors="replace").strip()
     if len(token) < MIN_TOKEN or not _TOKEN.fullmatch(token):
@@ -125,7 +125,7 @@ def _token(file: Path) -> str:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """Return a socket that listens; exit where it cannot."""
+    """Return a listening socket; exit if this is not possible."""
     try:
         family = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM)[0][0]
         listening = socket.create_server((host, port), family=family)
@@ -166,7 +166,7 @@ def _server(folder: Path, keys: Keys, hosts: Sequence[str]) -> uvicorn.Server:
 
 
 class _Visit(threading.Thread):
-    """Loads the page as a browser does, then ends the server."""
+    """Loads the page as a browser would, then stops the server."""
 
     def __init__(self, server: uvicorn.Server, address: str) -> None:
         super().__init__(daemon=True)

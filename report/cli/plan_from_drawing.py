@@ -1,6 +1,6 @@
 """Fills in the roof plan of a workbook from a drawing.
 
-Read `read_plan`, then `choose`: what it does with layers that the sheet Layers does not name.
+Read `read_plan`, then `choose`, which handles layers not listed on the Layers worksheet.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def read_plan(
 
 
 def _kinds(layers: Sequence[str]) -> dict[str, LayerKind]:
-    """Return what each `--layer NAME=TYPE` says, by the name."""
+    """Return the type in each `--layer NAME=TYPE`, by name."""
     kinds = {}
     for text in layers:
         # From the right: a layer may have the sign in its name, a kind has not.
@@ -118,10 +118,10 @@ def choose(
     option_kinds: Mapping[str, LayerKind],
     accept: bool,
 ) -> dict[str, LayerKind]:
-    """Return what is said of layers beyond the sheet Layers: as given, or proposed and accepted.
+    """Return the types of layers not on the Layers worksheet: as given, or proposed and accepted.
 
-    Raises `InputError` if a layer that is given is not in the drawing; or, after a table of them,
-    if layers with closed lines are not known.
+    Raises `InputError` if a given layer is not in the drawing; or, after printing them, if layers
+    with closed lines are unknown.
     """
     # Names of layers are equal whatever their capitals, as in AutoCAD.
     names = {layer.casefold(): layer for layer, _ in drawing.counts}
@@ -172,7 +172,7 @@ def _read(drawing: Path, units: str | None) -> tuple[RoofDrawing, float]:
 
 
 def _turned(drawing: RoofDrawing, rotate_deg: float) -> tuple[RoofDrawing, list[str]]:
-    """Return the drawing as turned, and lines on that and its north; NaN turns its north to +y."""
+    """Return the rotated drawing, and lines on the rotation and north; NaN turns north to +y."""
     # North is given from +x, counterclockwise.
     degrees = 90.0 - drawing.north_deg if math.isnan(rotate_deg) else rotate_deg
     if math.isnan(degrees):

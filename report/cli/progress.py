@@ -1,4 +1,4 @@
-"""The step that a command is at, with the time left."""
+"""The current step of a command, with the time left."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Progress:
     """
 
     def __init__(self, steps: int | Sequence[float] = 0, *, quiet: bool = False) -> None:
-        """Begin; `steps` is their number or their usual shares of the time, 0 if not known."""
+        """Begin; `steps` is their number or their typical fractions of the time, 0 if unknown."""
         shares = [1.0] * steps if isinstance(steps, int) else steps
         # Without steps the list is empty: then there is no bar, and no time left.
         self._shares_before = [sum(shares[:n]) / sum(shares) for n in range(len(shares))]
@@ -43,7 +43,7 @@ class Progress:
         return self
 
     def __call__(self, doing: object, done: int | None = None) -> None:
-        """Print the current step, and that so many are done: one more at each call if not given."""
+        """Print the current step and the number done, by default one more at each call."""
         seconds = time.monotonic() - self._started
         if self._quiet:
             return
@@ -61,7 +61,7 @@ class Progress:
         self._done += 1
 
     def _part(self) -> float:
-        """Return how much was done when the current step began."""
+        """Return the fraction done when the current step began."""
         before = self._shares_before
         # More calls than steps, as where a step repeats, leave the bar at its last part.
         return before[min(self._done, len(before) - 1)] if before else 0.0

@@ -59,7 +59,7 @@ def findings_before_runs(
 
 
 def _computed(sheet: Sheet) -> Iterator[Finding]:
-    """Yield what blank cells of the site stand for, by which rule."""
+    """Yield the values that replace blank cells of the site, and their rule."""
     site = SECTION["site"]
     blank = {row.address: row.value for row in sheet.echo if not row.typed}
     for entry in site.entries:

@@ -1,4 +1,4 @@
-"""What `roofslip motion info` prints of the records of a file, and `convert` writes."""
+"""Output of `roofslip motion info` and `convert` for the records of a file."""
 
 from __future__ import annotations
 
@@ -58,6 +58,6 @@ def convert_record(file: Path, out: Path, *, channel: str, factor: float, **read
 
 
 def _read(path: Path, reading: Mapping[str, Any]) -> MotionFile:
-    """Read a file by the options of the command, in which None stands for what is not given."""
+    """Read a file with the options of the command; None means not given."""
     options = {name: value for name, value in reading.items() if value is not None}
     return read_motion_file(path, **options)

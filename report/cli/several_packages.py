@@ -1,6 +1,6 @@
 """`roofslip report` of several projects, one after the other, with one table at the end.
 
-A project that fails stops no other. Read `report.making` first.
+A failing project does not stop the others. Read `report.making` first.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from solver.errors import InputError, Problem
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportOutcome:
-    """What became of one project, as JSON has it."""
+    """Outcome of one project, as in JSON."""
 
     source: str
     verdict: str | None = None
@@ -118,7 +118,7 @@ def package(
 ) -> ReportOutcome:
     """Make the package of one project; every error is printed and part of the outcome.
 
-    Where its folder is that of others as well, to a folder of its own below out/.
+    If its folder contains other projects, it is written to its own folder below out/.
     """
     started = time.monotonic()
     lines: list[str] = []
@@ -165,7 +165,7 @@ def package(
 
 
 def largest(ratios: Iterable[float]) -> float | None:
-    """Return the largest D/C, of which NaN is the worst; nothing without clearances."""
+    """Return the largest D/C, where NaN is the worst; nothing without clearances."""
     # NaN compares with nothing: it is sorted by being one.
     return max(ratios, key=lambda ratio: (math.isnan(ratio), ratio), default=None)
 

@@ -19,7 +19,7 @@ from report.cli.console import say
 
 @contextmanager
 def interrupts() -> Iterator[list[int]]:
-    """Give a list that grows with each Ctrl+C, which is still raised as KeyboardInterrupt."""
+    """Provide a list that grows with each Ctrl+C, which is still raised as KeyboardInterrupt."""
     received: list[int] = []
 
     def note(number: int, frame: FrameType | None) -> None:
@@ -38,7 +38,7 @@ def interrupts() -> Iterator[list[int]]:
 
 
 def say_unwritten(error: OSError) -> None:
-    """Say that the output or the error output cannot be written, as far as that can be said."""
+    """Report that the output or the error output cannot be written, if possible."""
     with suppress(OSError):
         click.echo(f"The output cannot be written ({error.strerror or error}).", err=True)
     # What is still in the buffers would fail again as the process ends.
@@ -46,7 +46,7 @@ def say_unwritten(error: OSError) -> None:
 
 
 class UntilClosed:
-    """An output whose reader may leave: the rest is dropped, and the work goes on."""
+    """An output whose reader may leave: the rest is dropped, and the work continues."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
@@ -55,7 +55,7 @@ class UntilClosed:
         return getattr(self._stream, name)
 
     def write(self, text: str) -> int:
-        """Write a text, if anyone reads it."""
+        """Write a text, if there is a reader."""
         try:
             return self._stream.write(text)
         except BrokenPipeError:
@@ -63,7 +63,7 @@ class UntilClosed:
             return len(text)
 
     def flush(self) -> None:
-        """Write what is in the buffer, if anyone reads it."""
+        """Write the buffer, if there is a reader."""
         try:
             self._stream.flush()
         except BrokenPipeError:
@@ -77,7 +77,7 @@ class UntilClosed:
 
 
 def set_up_console() -> None:
-    """On Windows, have pipes take UTF-8 rather than its code page, and terminals their codes."""
+    """On Windows, use UTF-8 for pipes instead of the code page, and enable terminal codes."""
     if sys.platform == "win32":
         from ctypes import windll  # only Windows has it
 

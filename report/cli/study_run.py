@@ -1,4 +1,4 @@
-"""Runs a study, and prints what it takes, its progress and its headline."""
+"""Runs a study, and prints its size, progress and main result."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def run(
     trust_parts: bool,
     quiet: bool,
 ) -> None:
-    """Run what is missing of a study, and publish its files; with `dry_run`, print the number."""
+    """Run the missing part of a study and publish its files; with `dry_run`, print the number."""
     folder = out or workbook_of(source).parent / "out/study"
     names = () if dry_run else ("study.pdf", "curves.csv", TABLE, LIBRARY)
     with input_errors(source, outputs=[folder / name for name in names]):

@@ -1,1 +1,1 @@
-"""What documents are made of: tables, blocks and templates. Owns no content of a page."""
+"""Building blocks of documents: tables, blocks and templates. Contains no content of a page."""

@@ -1,4 +1,4 @@
-"""Headings of the columns of a table, each with how its values are shown. Read `ColumnHead`."""
+"""Headings of the columns of a table, each with the format of its values. Read `ColumnHead`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class TableColumn:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ColumnHead:
-    """The heading of a column and how its values are shown: as a quantity, or else as text."""
+    """The heading of a column and the format of its values: a quantity, or else text."""
 
     head: str
     unit: str = ""
@@ -63,7 +63,7 @@ class ColumnHead:
 
 
 def words(head: str, share: float = 1.0) -> ColumnHead:
-    """Return the head of a column of words."""
+    """Return the head of a text column."""
     return ColumnHead(head=head, align="left", share=share)
 
 
@@ -85,12 +85,12 @@ provided = partial(length, show=no_more)
 
 
 def text(head: str, unit: str = "", share: float = 1.0) -> ColumnHead:
-    """Return the head of a column of finished texts, aligned as numbers are."""
+    """Return the head of a column of finished texts, aligned like numbers."""
     return ColumnHead(head=head, unit=unit, share=share)
 
 
 def plain(head: str, decimals: int = 2, unit: str = "", share: float = 1.0) -> ColumnHead:
-    """Return that of numbers that are no quantity in two systems of units."""
+    """Return the head of a column of numbers with only one unit or none."""
     return ColumnHead(head=head, unit=unit, text=partial(number, decimals=decimals), share=share)
 
 

@@ -1,4 +1,4 @@
-"""The numbered parts of a document, and those of a document whose sections are templates.
+"""The numbered parts of a document, in general and for sections from templates.
 
 Read `filled`.
 """

@@ -1,4 +1,4 @@
-"""Tables of a document: rows of finished strings, made of items by a list of columns.
+"""Tables of a document: rows of finished strings, built from items by a list of columns.
 
 Templates print these. Owns no content. Read `listed`.
 """
@@ -52,7 +52,7 @@ class TableRow:
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """A table, whose caption the template says; equal headings of adjacent columns are merged."""
+    """A table, captioned by its template; equal headings of adjacent columns are merged."""
 
     columns: tuple[TableColumn, ...]
     rows: tuple[TableRow, ...]
@@ -78,7 +78,7 @@ class Table:
         )
 
     def _share(self, k: int) -> float:
-        """Return the share of a column: more where it has long names, for two lines of each."""
+        """Return the share of a column: larger for long names, so that each fits on two lines."""
         share = self.columns[k].share
         full_rows = (row for row in self.rows if not any(type(cell) is Wide for cell in row.cells))
         cells = [_letters(row.cells[k]) for row in full_rows]
@@ -126,12 +126,12 @@ def _placed(
 
 
 def _letters(cell: object) -> str:
-    """Return what of a cell takes room: tags do not."""
+    """Return the visible length of a cell, without tags."""
     return cell.striptags() if isinstance(cell, Markup) else str(cell)
 
 
 def stamp(value: Verdict, text: str = "") -> Markup:
-    """Return a verdict, highlighted where it is not OK; that on the project as a text."""
+    """Return a verdict, highlighted if it is not OK; that on the project as text."""
     return Markup('<b class="{}">{}</b>').format(value.name.lower(), text or value)
 
 
@@ -228,7 +228,7 @@ def part_of(table: Table, start: int, stop: int | None = None, *, is_narrow: boo
 
 
 def compared_with(table: Table, cells: Sequence[str]) -> Table:
-    """Return a table whose first row is the one that the others are compared with."""
+    """Return a table whose first row is the reference for the others."""
     return replace(table, rows=(TableRow(cells=tuple(cells), kind="total"), *table.rows))
 
 

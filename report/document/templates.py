@@ -1,4 +1,4 @@
-"""The templates of documents, with the filters that their prose uses.
+"""The templates of documents, with the filters used in their text.
 
 A template prints the dict that its page returns and calls no method; filters are plain functions of
 values. Owns no content.
@@ -45,14 +45,14 @@ def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
 
 
 def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
-    """Return what a macro of a template says, as text without tags: for tables and the screen."""
+    """Return the output of a template macro as text without tags, for tables and the screen."""
     module = _environment(folder).get_template(path).make_module(dict(context))
     return Markup(getattr(module, name)()).unescape().strip()
 
 
 @cache
 def _environment(folder: Path) -> Environment:
-    """Return the templates of a folder, which are compiled once in a process."""
+    """Return the templates of a folder, compiled once per process."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     environment = Environment(
@@ -73,7 +73,7 @@ def _environment(folder: Path) -> Environment:
 
 
 def _kept(folder: Path) -> BytecodeCache:
-    """Return where compiled templates are kept, as Python keeps what it compiles."""
+    """Return the cache folder of compiled templates, next to Python's own."""
     from jinja2 import FileSystemBytecodeCache
     from jinja2.bccache import Bucket
 
@@ -93,7 +93,7 @@ def _kept(folder: Path) -> BytecodeCache:
 
 
 def state_of(*folders: Path) -> str:
-    """Return what changes with any module in folders: names, sizes, and when they were written."""
+    """Return a fingerprint of all modules in folders: names, sizes and times of writing."""
     modules = sorted((str(path), path.stat()) for top in folders for path in top.rglob("*.py"))
     return str([(name, stat.st_size, stat.st_mtime_ns) for name, stat in modules])
 
@@ -103,7 +103,7 @@ SHORT_LETTERS = 64
 
 
 def _needs_a_line(numbers: Markup) -> bool:
-    """Return whether the numbers of an equation are too long to stand beside it; notes wrap."""
+    """Return whether the numbers of an equation are too long to fit beside it; notes wrap."""
     rows = (row for row in numbers.split("</div>") if 'class="small"' not in row)
     # Tags take no room.
     return any(len(row.striptags()) > SHORT_LETTERS for row in rows)

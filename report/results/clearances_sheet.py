@@ -98,8 +98,7 @@ def write_clearances(pages: Pages, assessment: Assessment, inputs: InputCells) -
         "Clearances",
         f"{assessment.rules.name}. Calculated from the Design worksheet; between two arrays the "
         "larger displacement governs. The factor includes I_e or I_p if the rule set applies it "
-        "here."
-        + (f" {MEANING}." if assessment.is_overridden else ""),
+        "here." + (f" {MEANING}." if assessment.is_overridden else ""),
     )
     return [row.item for row in rows]
 

@@ -107,8 +107,8 @@ def shaking_to_roof(
 ) -> RoofShaking:
     """Return all components at the roof, with the smallest step and the greatest length of any.
 
-    There is a building for each horizontal component. The vertical one, empty for none, is
-    unchanged but for its step and length.
+    Each horizontal component has its own building. The vertical one, empty if there is none,
+    changes only in step and length.
     """
     # Modes are chosen for each component by itself; step and length are then those of the neediest.
     grounds = [_checked(a, dt_s, share) for a in horizontal_mps2]
@@ -134,12 +134,12 @@ def shaking_to_roof(
 
 
 def at_roof(motion: Motion, building: Building, transverse: Building | None = None) -> Motion:
-    """Return a ground motion as the roof of an elastic building has it.
+    """Return the motion of an elastic building's roof under a ground motion.
 
-    The horizontal components are carried through the modes of the building by exact oscillators
+    The horizontal components are transferred through the modes of the building by exact oscillators
     (Nigam and Jennings, Bull. Seism. Soc. Am. 59 (1969) 909-922); the vertical one is unchanged.
-    The motion is longer than that of the ground, by free vibration, and its step is finer where a
-    mode needs it.
+    The free vibration after the ground motion is included, and the step is refined if a mode
+    requires it.
 
     Parameters
     ----------

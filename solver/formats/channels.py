@@ -1,4 +1,4 @@
-"""From the values of channels to records, with notes for the user.
+"""Converts the values of channels into records, with notes for the user.
 
 A header that states a peak of 0.30 g is noted above values that reach 0.31 g, and refused above
 values that reach 0.90 g, which are in another unit.
@@ -77,7 +77,7 @@ def motion_file(
 
     Names of the result are distinct, and notes name their channel.
 
-    `start` is when the record begins, where its heading says so in a way of its format.
+    `start` is the start time of the record, if its heading states it in a format of its own.
     """
     if not channels:
         raise InputError(
@@ -200,7 +200,7 @@ def peak_notes(source: Source, index: int, stated_mps2: float, a_mps2: Floats) -
 def centered_peak_notes(
     source: Source, index: int, stated_mps2: float, a_mps2: Floats
 ) -> tuple[str, ...]:
-    """As `peak_notes`, of a stated peak that may be that without the mean."""
+    """Same as `peak_notes`, for a stated peak that may exclude the mean."""
     centered = a_mps2 - a_mps2.mean() if len(a_mps2) else a_mps2
     # Whichever is nearer: K-NET states the peak without the mean, others that of the values.
     alike = min(

@@ -1,4 +1,4 @@
-"""What the columns of a table show by their numbers, whatever their headings say.
+"""The type of the columns of a table by their numbers alone, without their headings.
 
 `1 2 3` counts lines, `0.00 0.01 0.02` are times, and `0.1 -0.2 0.1` is a record.
 
@@ -23,7 +23,7 @@ _MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
 
 
 def rising(table: Floats) -> list[int]:
-    """Indexes of the columns that rise from row to row, evenly where there are few rows."""
+    """Indexes of the columns that increase from row to row; evenly, if there are few rows."""
     rows = len(table)
     if rows < _FEW:
         return []
@@ -86,7 +86,7 @@ def pairs(values: Floats, per_line: int) -> Floats | None:
 
 
 def remedy(table: Floats) -> str:
-    """Return what would do for a table of two or more columns without headings."""
+    """Return the remedy for a table of two or more columns without headings."""
     heading = f"a heading such as time_s,x_g{',y_g' * (table.shape[1] > 2)}"
     if not (columns := rising(table)):
         return (

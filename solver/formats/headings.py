@@ -1,4 +1,4 @@
-"""How the numbers of a text are laid out in its lines, and what the text says of them.
+"""The layout of the numbers in a text, and what the text states about them.
 
 From lines to rows and columns, headings, units and step; reads no table: `solver.formats.text`
 does, with what is found here. `time_s,acc_g` above rows of two numbers heads a column of times and
@@ -42,7 +42,7 @@ _CLOCK = re.compile(r"\d+([-/:.])\d+\1\d+(?:[:.,T ].*)?", re.ASCII)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Layout:
-    """Where the numbers of a text are, and what is said of them."""
+    """Location of the numbers in a text, and what the text states about them."""
 
     source: Source  # with plain lines
     start: int  # index of the first line that may hold numbers

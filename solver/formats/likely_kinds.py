@@ -1,4 +1,4 @@
-"""What a file that is not read probably is, and what to do: by how its lines or bytes begin.
+"""Guesses what an unreadable file is, from its first lines or bytes, and the remedy.
 
 `<?xml version=...` is XML, `PK` a zip or a workbook, `timeSeries Path 1` a program. Knows no format
 that is read.
@@ -46,7 +46,7 @@ _BYTES = (
 
 
 def likely_text(lines: Sequence[str]) -> str:
-    """Return what a text that is no table of numbers probably is, and what to do; "" if unknown."""
+    """Return what a text that is not a table of numbers probably is, and the remedy, or ""."""
     near = [line for line in lines[:LOOKED_AT] if line.strip()]
     for pattern, name, remedy in _TEXTS:
         if any(map(pattern.match, near)):
@@ -55,7 +55,7 @@ def likely_text(lines: Sequence[str]) -> str:
 
 
 def likely_bytes(data: bytes) -> str:
-    """Return what a file that is no text probably is, and what to do; "" if unknown."""
+    """Return what a file that is not text probably is, and the remedy; "" if unknown."""
     for pattern, name, remedy in _BYTES:
         if pattern.match(data):
             return f"{name}; {remedy}"

@@ -138,7 +138,7 @@ def free_values(source: Source, block: Block) -> Floats:
 
 
 def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
-    """Refuse a line of one value that lost its end: it alone has fewer digits than all others."""
+    """Reject a truncated line of one value: it alone has fewer digits than all others."""
     digits = [_digits(row.strip().translate(_FORTRAN)) for _, row in rows]
     counts = Counter(digits)
     # Programs that drop zeros at the end print all sorts of lengths: they say nothing.
@@ -155,7 +155,7 @@ def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
 
 
 def check_last(source: Source, index: int, fields: Sequence[str]) -> None:
-    """Refuse a last value with fewer digits than all others: a file cut within it, not before."""
+    """Reject a last value with fewer digits than all others: the file was cut within it."""
     if is_cut_short(fields[-COMPARED:]):
         raise InputError(
             f"{source.at(index)}: found {quoted(fields[-1])} at the end, with fewer digits than all"
@@ -181,7 +181,7 @@ def _digits(field: str) -> tuple[int, int]:
 
 
 def header_values(source: Source, first: int, count: int, layout: FieldFormat) -> list[Stated]:
-    """Values of a header; NaN if a field is blank, missing or not a number: many are unused."""
+    """Values of a header; NaN for fields, often unused, that are blank, missing or not a number."""
     values: list[Stated] = []
     for index in range(first, first + layout.lines(count)):
         # A line may end where its last fields are blank.

@@ -1,4 +1,4 @@
-"""What text states of numbers: the heading of a column, or a line above or among them.
+"""Parses statements about numbers: the heading of a column, or a line above or among them.
 
 `EW [cm/s2]` heads an acceleration in cm/s2, and `dt = 5 ms` states a step of 0.005 s.
 
@@ -150,7 +150,7 @@ def parse(text: str) -> Heading:
 
 
 def settled(headings: list[Heading]) -> list[Heading]:
-    """Treat the g of ``ch_g`` as a letter, not a unit, if neighbors like ``ch_f`` have no unit."""
+    """Treat the g of ``ch_g`` as a letter, not a unit, if others like ``ch_f`` have no unit."""
     if not any(heading.kind is Kind.UNSAID for heading in headings[1:]):
         return headings
     return [
@@ -172,7 +172,7 @@ def is_spectral(heading: Heading) -> bool:
 
 
 def of_a_spectrum(headings: list[Heading]) -> list[str]:
-    """Return the headings by which a table is a spectrum: no time, or ordinates alone."""
+    """Return the headings that mark a table as a spectrum: no time, or ordinates alone."""
     first, *ordinates = headings
     spectral = [heading.text for heading in ordinates if is_spectral(heading)]
     if _ABSCISSAS.match(first.text):
@@ -243,7 +243,7 @@ def _kind(name: str, unit: str) -> tuple[Kind, float]:
 
 
 def is_of_a_spectrum(line: str) -> bool:
-    """Whether a line of text says that the numbers below it are a spectrum."""
+    """Whether a line of text states that the numbers below it are a spectrum."""
     return bool(_SPECTRUM.match(line))
 
 
@@ -253,7 +253,7 @@ def is_of_acceleration(line: str) -> bool:
 
 
 def other_quantity(line: str) -> str:
-    """What a line of text says that the numbers below it are, if no acceleration; "" for none."""
+    """Quantity that a line of text states for the numbers below, if not acceleration; else ""."""
     quantity = _QUANTITY.match(line)
     # A length alone may be a word, or the unit of the site's coordinates.
     units = (unit for unit in _UNITS_OF.findall(line) if "/" in unit and is_other_unit(unit))
@@ -261,7 +261,7 @@ def other_quantity(line: str) -> str:
 
 
 def is_of_another(line: str) -> bool:
-    """Whether a line of text says another quantity than acceleration, or another unit than g."""
+    """Whether a line of text states a quantity other than acceleration, or a unit other than g."""
     sizes = {unit_size(unit) for unit in units_in(line)}
     return bool(sizes - {unit_size("g")} or other_quantity(line))
 
@@ -277,7 +277,7 @@ def units_in(line: str) -> list[str]:
 
 
 def stated_units(line: str) -> list[str]:
-    """Units of acceleration in a line of text that says that it states units."""
+    """Units of acceleration in a line of text that is labeled as stating units."""
     return units_in(line) if _STATES_UNITS.search(line) else []
 
 

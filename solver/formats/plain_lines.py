@@ -1,4 +1,4 @@
-"""Lines of a table of numbers, without what its program added to them, and their rows.
+"""Lines of a table of numbers, without additions by the program that wrote it, and their rows.
 
 `"0,01";"0,2";` becomes `0.01;0.2`, which is a row of two numbers; `time_s,acc_g` is a heading. Each
 line keeps its index, so that messages name the lines of the file. Read `plain_lines`.
@@ -25,7 +25,7 @@ _SEEN = 200
 
 
 def plain_lines(lines: Sequence[str]) -> list[str]:
-    """Return the lines of a table without what its program added, as many as there are.
+    """Return the lines of a table without additions by its program; their number is unchanged.
 
     Separators between quoted fields become semicolons; a decimal comma becomes a point where the
     columns are separated by something else and no number has a point.
@@ -65,7 +65,7 @@ def _rows(lines: Sequence[str]) -> list[int]:
 
 
 def _without_last_marks(lines: list[str]) -> list[str]:
-    """Take the separator off the ends of all lines, if each of the first ones has it there."""
+    """Remove the separator from the end of all lines, if each of the first lines ends with it."""
     rows = [lines[i].rstrip(" ") for i in _rows(lines)]
     if len(rows) < 2 or not all(row.endswith(tuple(_MARKS)) for row in rows[1:]):
         return lines
@@ -102,7 +102,7 @@ def _without_units_row(lines: list[str]) -> list[str]:
 
 
 def _with_count_and_step(lines: list[str]) -> list[str]:
-    """Make a remark of a first row that counts the times and values below it, as of DEEPSOIL."""
+    """Turn a first row with count and step into a remark, as in DEEPSOIL files."""
     start = first_row(lines)
     (index, content), (_, second) = [*islice(rows_of(lines, start), 2), (0, ""), (0, "")][:2]
     match = _COUNT_AND_STEP.fullmatch(content)
@@ -164,7 +164,7 @@ def first_row(lines: Sequence[str]) -> int:
 
 
 def is_heading(content: str) -> bool:
-    """Whether a line begins with what is no number."""
+    """Whether a line begins with something other than a number."""
     word = re.split(r"[,;\s]", content)[0]
     return content[0] not in "+-.0123456789" and word.lower() not in {"nan", "inf", "infinity"}
 

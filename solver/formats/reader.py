@@ -62,9 +62,8 @@ def read_motion_file(
     dt_s : float
         Sampling interval [s], likewise.
     values_per_line : int
-        For a text without a heading whose values follow each other across the lines, as programs
-        such as OpenSees and SAP2000 read them: their number in each line but the last. 0 for
-        columns.
+        For a text without a heading whose values run across the lines, as in files for OpenSees and
+        SAP2000: the number of values in each line except the last. 0 for columns.
     response : str or Path
         For raw counts: the StationXML of the instrument, or its counts per m/s2.
 
@@ -107,7 +106,7 @@ def read_record(
     path, units, dt_s, values_per_line, response
         As in `read_motion_file`.
     channel : str
-        Its name or number in the file; may be omitted where there is only one.
+        Its name or number in the file; may be omitted if there is only one.
 
     Returns
     -------
@@ -116,7 +115,7 @@ def read_record(
     Raises
     ------
     InputError
-        As `read_motion_file`, and where there is no such channel.
+        Same as `read_motion_file`, and if there is no such channel.
 
     Examples
     --------

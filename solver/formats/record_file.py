@@ -35,7 +35,7 @@ class MotionFile:
     hold_s : float
         Hold of the envelope [s], if the file says that it was generated; otherwise NaN.
     start : datetime or None
-        When the record begins, as the heading has it; None if it does not.
+        Start time of the record, as stated in the heading; None if not stated.
     content : bytes
         The file that all of this is read from.
     """

@@ -27,7 +27,7 @@ _SAC_HEADING, _SAC_VERSION_AT, _SAC_VERSIONS = 632, 304, {6, 7}
 
 
 def waveform_format(data: bytes) -> str:
-    """Return what ObsPy calls the format of a binary record that it reads; "" for another file."""
+    """Return ObsPy's name for the format of a binary record that it reads; "" for another file."""
     if _MINISEED.match(data):
         return "MSEED"
     heading = data[_SAC_VERSION_AT : _SAC_VERSION_AT + 4]
@@ -79,7 +79,7 @@ class Source:
     content: bytes = b""
 
     def at(self, index: int) -> str:
-        """File name and number of the line at an index, with which messages begin."""
+        """File name and number of the line at an index, at the beginning of messages."""
         return f"{self.name}:{index + 1}"
 
     def line(self, index: int) -> str:
@@ -109,14 +109,14 @@ class Source:
 
     @property
     def counts_per_mps2(self) -> float:
-        """Raw counts for 1 m/s2, where the caller gives that number; else NaN."""
+        """Raw counts for 1 m/s2, if given by the caller; otherwise NaN."""
         try:
             return float(self.response)
         except ValueError:
             return math.nan
 
     def counts_scale(self, problem: str) -> float:
-        """Value [m/s2] of a raw count, if the caller gives their number."""
+        """Value [m/s2] of a raw count, if the caller gives counts per m/s2."""
         if math.isnan(self.counts_per_mps2):
             raise InputError(
                 f"{problem}: raw counts require the response of the instrument;"

@@ -54,7 +54,7 @@ _LOOKED_AT = 200
 
 
 def recognizes(source: Source) -> bool:
-    """Text accepts every file that no other format does."""
+    """Text accepts every file not recognized by another format."""
     return True
 
 
@@ -260,7 +260,7 @@ def _check_last(layout: Layout) -> None:
 
 
 def _check_remarks(layout: Layout, table: Floats) -> None:
-    """Raise where the text above the numbers says that they are no accelerations."""
+    """Raise if the text above the numbers states that they are not accelerations."""
     numbers = table[:, 1:] if table.shape[1] > 1 else table
     # A record may be matched to a spectrum: only a spectrum is nowhere below zero.
     is_positive = len(numbers) > _FEW and bool((numbers >= 0.0).all())
@@ -288,7 +288,7 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
 
 
 def _left_out(layout: Layout, table: Floats, columns: Sequence[int]) -> dict[int, str]:
-    """Return the columns that are no component of an acceleration, and why."""
+    """Return the columns that are not a component of acceleration, and why."""
     headings = layout.headings
     not_accelerations = [i for i in columns if headings and headings[i].kind is Kind.OTHER]
     components = [i for i in columns if i not in not_accelerations]
@@ -371,7 +371,7 @@ def _unit_of_times(layout: Layout, table: Floats) -> float:
 
 
 def _check_is_time(layout: Layout, table: Floats) -> None:
-    """Raise where the first of columns without headings cannot be times at all."""
+    """Raise if the first of several columns without headings cannot be times."""
     source, times = layout.source, table[:, 0]
     if layout.headings or len(times) <= _FEW:
         return

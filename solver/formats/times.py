@@ -75,7 +75,7 @@ def is_even(t_s: Floats, unit_s: float = 1.0) -> bool:
 
 
 def _rounded(source: Source, t_s: Floats, columns: Floats, unit_s: float) -> Even | None:
-    """Columns at the caller's step where even times are rounded to stand twice; else None."""
+    """Columns at the caller's step if even times repeat because of rounding; otherwise None."""
     n, resolution = len(t_s) - 1, _resolution(t_s, unit_s)
     step = (t_s[-1] - t_s[0]) / n
     # A time that is there twice by mistake leaves the others at steps of the resolution.

@@ -1,4 +1,4 @@
-"""How numba compiles the kernels: whether on disk, and with options that it does not document.
+"""Settings of numba for the kernels: the cache on disk, and undocumented options.
 
 Knows no kernel; each is declared with `cache=KEPT`. Where nothing can be kept, every process
 compiles for itself, half a minute for a report, and nothing else is different.

@@ -1,6 +1,6 @@
-"""Lives of a roof: the events of each follow one another, jitted.
+"""Event sequences over the service life of a roof, jitted.
 
-Draws nothing and runs no record: both are given. numpy and numba only. `in_numpy` in
+Samples no events and runs no record; both are inputs. numpy and numba only. `in_numpy` in
 `tests/solver/studies/test_rates.py` is the same without the compiler.
 """
 
@@ -16,7 +16,7 @@ PRD, DOWN, UP, ACROSS, RESIDUAL, RESIDUAL_ACROSS = range(6)
 
 @njit(cache=KEPT, nogil=True)
 def live(first, friction, run, level, weight, side, responses, recenter, out):
-    """Follow lives of events: the largest distance from the installed place, and the last.
+    """Follow event sequences: the largest and the last distance from the installed location.
 
     During an event the array is at most its PRD farther than before, and nowhere beyond the
     rectangle of its excursions: the smaller distance counts. In one axis and from the installed

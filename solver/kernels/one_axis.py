@@ -1,8 +1,8 @@
 """The exact one-axis solver, jitted: the linearly interpolated record, event by event.
 
 Never raises, knows no units but SI; numpy and numba only. Read `slide_exact`;
-`solver.sliding.checked` explains the results. `docs/method.md` has the block in some lines of plain
-Python, and `tests/oracle.py` follows it by other algebra to 40 digits.
+`solver.sliding.checked` explains the results. `docs/method.md` solves the block in a few lines of
+plain Python, and `tests/oracle.py` by other algebra to 40 digits.
 
 Letters, as in the paper (Predicted Slip of Ballasted Solar Arrays, Eqs. 1-19):
     ax, az   horizontal (right) and vertical (up) acceleration of the plane     [m/s2]

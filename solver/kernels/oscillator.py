@@ -91,7 +91,7 @@ def peaks(a, dt, omega, zeta, peak, at):
     u'' + 2 zeta omega u' + omega^2 u = -a(t) from rest, exact at the samples (Nigam and Jennings,
     Bull. Seism. Soc. Am. 59 (1969) 909-922), in y = omega^2 u and z = omega u' so that every
     quantity is an acceleration. Peaks between two samples are those of the cubic with the values y
-    and the slopes z of both. Of steps longer than one radian only the ends are looked at.
+    and the slopes z of both. For steps longer than one radian, only the ends are evaluated.
 
     omega [rad/s] is finite, shape (m,), zeta in [0, 1). `peak` and `at` are filled with the signed
     omega^2 u at the largest |u| [m/s2], and with the sample where it is, at the end of its step.
@@ -129,7 +129,7 @@ def peaks(a, dt, omega, zeta, peak, at):
 
 @njit(cache=KEPT, error_model="numpy", nogil=True)
 def crests(a, dt, omega, zeta, above):
-    """Crests of the responses of `peaks` at samples, where they are above a limit of each [m/s2].
+    """Crests of the responses of `peaks` at samples that exceed the limit of each [m/s2].
 
     Returns oscillators, samples, and signed pseudo-accelerations [m/s2], shape (q,) each.
     """

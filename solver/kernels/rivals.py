@@ -1,4 +1,4 @@
-"""The methods that the exact one is compared with, jitted: each as it is commonly used.
+"""The methods compared with the exact one, jitted: each as it is commonly used.
 
 Never raises, knows no units but SI; numpy and numba only. Read `solver.rivals.methods` for a
 description of each, and `solver.kernels.one_axis` for the exact method.

@@ -1,4 +1,4 @@
-"""Runge-Kutta methods with events, jitted whole: the nearest rivals of the exact methods.
+"""Runge-Kutta methods with events, fully jitted: closest competitors of the exact methods.
 
 Dormand and Prince's of order 5 (RK45) and of order 8 (DOP853) with SciPy's coefficients, error
 norms and control of the step, restarted at every sample, onset of slip and stop. Never raises,
@@ -226,7 +226,7 @@ def excess(p, t):
 
 @njit(cache=KEPT)
 def _crossing(p, low, high):
-    """The time at which the excess changes its sign, bracketed."""
+    """The time at which the excess changes sign, bracketed."""
     is_over = excess(p, low) > 0.0
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)

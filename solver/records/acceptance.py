@@ -1,9 +1,9 @@
-"""Acceptance of the motions of an analysis: each limit on them with the worst motion.
+"""Acceptance criteria for the motions of an analysis: each limit, with the worst motion.
 
 Motions at 0.95 of their target satisfy the limit of 0.90 for each of them, and miss that of 1.00
 for their mean from 0.1 to 1.3 Hz, where sliding is driven.
 
-Changes no motion and draws no verdict. Read `acceptance`.
+Changes no motion and gives no verdict. Read `acceptance`.
 """
 
 from __future__ import annotations
@@ -73,24 +73,24 @@ class SpectrumRatio:
     ratio: Floats  # shape (209,), at `POINTS_HZ`; NaN where there is no target
 
     def among(self, points: NDArray[np.bool_]) -> tuple[Floats, Floats]:
-        """Return the frequencies [Hz] with a target among some points, and the ratios there."""
+        """Return the frequencies [Hz] with a target among given points, and the ratios there."""
         finite = points & np.isfinite(self.ratio)
         return POINTS_HZ[finite], self.ratio[finite]
 
     def minimum(self, points: NDArray[np.bool_]) -> tuple[float, str]:
-        """Return the smallest ratio among some points, and where it is."""
+        """Return the smallest ratio among given points, and its location."""
         freq_hz, ratio = self.among(points)
         lowest = int(ratio.argmin())
         return float(ratio[lowest]), self._at(freq_hz[lowest])
 
     def dips(self, points: NDArray[np.bool_]) -> tuple[int, str]:
-        """Return the number of points below 1.00 among some, and where the lowest is."""
+        """Return the number of points below 1.00 among given ones, and the lowest of them."""
         _, ratio = self.among(points)
         count = int((ratio < FULL_RATIO).sum())
         return count, self.minimum(points)[1] if count else ""
 
     def longest_dip(self, points: NDArray[np.bool_]) -> tuple[int, str]:
-        """Return the most neighboring points below 1.00 among some, and where they end."""
+        """Return the longest run of points below 1.00 among given ones, and its end."""
         longest, length, where = 0, 0, ""
         for freq_hz, ratio in zip(*self.among(points), strict=True):
             length = length + 1 if ratio < FULL_RATIO else 0
@@ -118,7 +118,7 @@ def spectrum_ratios(
 
 
 def one_by_one(motions: Sequence[Motion]) -> Sequence[Sequence[Floats]]:
-    """Return spectra by the compiled kernel, each of which is kept."""
+    """Return spectra by the compiled kernel; each is cached."""
     return [
         [spectrum_mps2(a.tobytes(), motion.dt_s) for a in motion.components.values()]
         for motion in motions
@@ -128,7 +128,7 @@ def one_by_one(motions: Sequence[Motion]) -> Sequence[Sequence[Floats]]:
 # By the bytes of the record: an array has no hash.
 @lru_cache(_KEPT)
 def spectrum_mps2(record: bytes, dt_s: float) -> Floats:
-    """Return a record's spectrum at `POINTS_HZ`, computed once for all that is compared with it."""
+    """Return a record's spectrum at `POINTS_HZ`, computed once for all comparisons."""
     return read_only(response_spectrum(np.frombuffer(record), dt_s, 1.0 / POINTS_HZ))
 
 
@@ -177,7 +177,7 @@ def _compared(
 
 
 def _extent(ratios: Sequence[SpectrumRatio], points: NDArray[np.bool_]) -> str:
-    """Say if the target is not given at all of the points."""
+    """State if the target is not defined at all of the points."""
     is_whole = all(np.isfinite(ratio.ratio[points]).all() for ratio in ratios)
     return "" if is_whole else " as far as the target is given"
 
@@ -251,14 +251,14 @@ class MotionStrength:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Acceptance:
-    """The rows on the motions, and the measures behind them."""
+    """The checks of the motions, and the measures that they are based on."""
 
     rows: tuple[Limit, ...]
     motions: tuple[MotionStrength, ...]
 
     @property
     def qualifies(self) -> bool:
-        """Whether the motions satisfy every limit without which a value from analysis is NG."""
+        """Whether the motions satisfy every limit required for an analysis displacement."""
         return not any(row.consequence is Consequence.NG for row in self.missed)
 
     @property

@@ -1,4 +1,4 @@
-"""Response spectra of records of one time step together, by products of matrices.
+"""Response spectra of all records with one time step at once, by matrix products.
 
 `solver.records.spectrum` is of one record, by a compiled kernel. What only compares spectra with a
 target does not load the compiler, which takes longer than these. Read `together`.

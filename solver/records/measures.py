@@ -165,7 +165,7 @@ def _cumulative(a: Floats, dt: float) -> Floats:
 
 
 def _time_of(a: Floats, dt: float, cumulative: Floats, target: float) -> float:
-    """Time at which the integral of a^2 reaches the value wanted."""
+    """Time at which the integral of a^2 reaches a given value."""
     # Within an interval the integral is (c^3 - a^3) / (3 r), where c is the acceleration at the
     # time x and c - a = r x. Factoring out c - a gives x without cancellation.
     # A record of zeros reaches every share at its start.

@@ -1,6 +1,6 @@
 """Processing of a record, in fixed steps from trimming to zeros at the end.
 
-An offset of 0.01 g, hardly to be seen, drifts 20 m in 20 s; `Processing(baseline=0)` removes it.
+A barely visible offset of 0.01 g drifts 20 m in 20 s; `Processing(baseline=0)` removes it.
 
 Reads no files and evaluates no results: `solver.records.measures` gives the remaining drift.
 Read `Processing` first, then `process`.
@@ -43,7 +43,7 @@ class Processing:
     Attributes
     ----------
     from_s, to_s : float
-        Part of the record that is kept [s from its first sample], samples at the limits included.
+        Part of the record to keep [s from its first sample], including samples at the limits.
     baseline : int
         Degree of the polynomial that is fitted to the acceleration by least squares and removed:
         0 the mean, 1 a straight line; -1 none.

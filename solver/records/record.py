@@ -53,7 +53,7 @@ class Record:
     a_mps2 : array, shape (n,)
         Acceleration [m/s2], read-only, n >= 2.
     notes : tuple of str
-        On how it was read, such as that uneven times were resampled.
+        Notes on how it was read, such as resampling of uneven times.
     """
 
     name: str
@@ -220,7 +220,7 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
 
 
 def check_peak(name: str, a_mps2: Floats) -> None:
-    """Refuse a record beyond `PEAK`: its units are others than stated."""
+    """Reject a record beyond `PEAK`: its units are not those stated."""
     peak_g = float(np.abs(a_mps2).max()) / UNITS["g"]
     if not PEAK.has(peak_g):
         raise InputError(
@@ -230,7 +230,7 @@ def check_peak(name: str, a_mps2: Floats) -> None:
 
 
 def has_gravity(a_mps2: Floats | float) -> bool:
-    """Whether the mean of a component is about 1 g: its instrument measured gravity, too."""
+    """Whether the mean of a component is about 1 g: its instrument also measured gravity."""
     return bool(0.8 < abs(float(np.mean(a_mps2))) / UNITS["g"] < 1.2)
 
 
@@ -243,7 +243,7 @@ def read_only(values: ArrayLike) -> Floats:
 
 
 def own(values: ArrayLike) -> Floats:
-    """Return a read-only copy of the values: nobody can write to it, so that bounds are kept."""
+    """Return a read-only copy of the values, so that their bounds remain valid."""
     copied = np.array(values, dtype=np.float64)
     copied.setflags(write=False)
     return copied

@@ -1,4 +1,4 @@
-"""Seismic design parameters of ASCE 7: ground motion values, SDC, T_a and F_p.
+"""Seismic design parameters of ASCE 7: ground-motion values, SDC, T_a and F_p.
 
 With S_S = 1.271 g and F_a = 1.2, S_MS is 1.525 g and S_DS 1.017 g.
 
@@ -108,7 +108,7 @@ REFERENCED: Mapping[str, str] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeismicParameters:
-    """Ground motion values of a site [g]; None where neither given nor derivable.
+    """Ground-motion values of a site [g]; None if neither entered nor derivable.
 
     S_MS = F_a S_S, S_M1 = F_v S_1 (ASCE 7-16 11.4.4); S_DS = 2/3 S_MS, S_D1 = 2/3 S_M1.
     """
@@ -136,7 +136,7 @@ def seismic_parameters(
     s_ds: float | None = None,
     s_d1: float | None = None,
 ) -> SeismicParameters:
-    """Return the parameters of a site, each as given or else derived, unrounded [g].
+    """Return the parameters of a site, each as entered or otherwise derived, unrounded [g].
 
     A given S_DS without S_MS gives S_MS = 3/2 S_DS, and likewise at 1 s.
     """

@@ -1,8 +1,8 @@
-"""One limit, with the value found and what follows from a miss.
+"""One limit, with the value found and the consequence of exceeding it.
 
-A roof slope of 3.5 degrees with at most 3 permitted is a miss, whose consequence is NG.
+A roof slope of 3.5 degrees exceeds a limit of 3 degrees; the consequence is NG.
 
-Owns no limit: `solver.rules.provisions` and `solver.records.acceptance` do. Read `Limit`.
+Defines no limit: `solver.rules.provisions` and `solver.records.acceptance` do. Read `Limit`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ PROGRAM = Provision(
 
 
 class Consequence(StrEnum):
-    """What follows from a limit or a requirement that is not satisfied."""
+    """Consequence of a limit or a requirement that is not satisfied."""
 
     NG = "NG"
     CONDITION = "condition"
@@ -51,7 +51,7 @@ class Measure(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limit:
-    """A value compared with what is required; NaN is never satisfied."""
+    """A value compared with its limit; NaN is never satisfied."""
 
     title: str
     found: float  # as the limit, in the unit of `measure`
@@ -77,7 +77,7 @@ class Limit:
 
     @property
     def is_program_limit(self) -> bool:
-        """Whether the limit is that of this program: it stands in no code."""
+        """Whether the limit is set by this program and is in no code."""
         return self.provision.clause == PROGRAM.clause  # another process has an object of its own
 
     @property

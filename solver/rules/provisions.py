@@ -107,7 +107,7 @@ def analysis_value(
     """Return the value from analysis; with `basis` None the rule set determines the basis.
 
     PV1-2012: 1.1 x mean of the peaks with 7 motions or more, 1.1 x largest with 3 to 6.
-    A basis that needs more motions than there are gives `Basis.TOO_FEW`.
+    A basis that requires more motions than are available returns `Basis.TOO_FEW`.
     """
     n = len(peaks_m)
     mean = sum(peaks_m) / n if n else math.nan
@@ -163,7 +163,7 @@ def minimum_motions(rules: RuleSet, basis: Basis) -> float:
 
 
 class Neighbor(StrEnum):
-    """Kind of object on the other side of a clearance."""
+    """Type of object on the other side of a clearance."""
 
     LIKE = "array of similar construction"
     FIXED = "fixed object"

@@ -1,4 +1,4 @@
-"""The rule sets as data: one table for each adopted document, with clause and confidence.
+"""The rule sets as data: one table for each adopted document, with section and confidence.
 
 The separation from a roof edge without a parapet is 1.5 times the displacement by PV1-2012, and
 twice the displacement by ASCE 7.
@@ -31,7 +31,7 @@ class Confidence(StrEnum):
 class Provision:
     """One number of a rule set, with its clause; `reason` is not empty if it is overridden.
 
-    `note` is what a reader must know of the number besides.
+    `note` states anything else the reader must know about the number.
     """
 
     value: float
@@ -48,7 +48,7 @@ class Provision:
 
 @dataclass(frozen=True, slots=True)
 class Allowed:
-    """Range of a value that may replace a number of a rule set, and what the number is."""
+    """Permitted range of an override of a rule-set number, and the number's description."""
 
     low: float
     high: float
@@ -57,7 +57,7 @@ class Allowed:
     is_maximum: bool = False  # limits a project from above: a larger number requires less of it
 
     def lowers(self, value: float, adopted: float) -> bool:
-        """Whether a value requires less of a project than the number of the rule set."""
+        """Whether a value is less stringent than the number of the rule set."""
         return value > adopted if self.is_maximum else value < adopted
 
     def has(self, value: float) -> bool:
@@ -66,7 +66,7 @@ class Allowed:
 
     @property
     def words(self) -> str:
-        """The range in words."""
+        """The range as text."""
         return f"a {'whole ' if self.is_whole else ''}number from {self.span}"
 
     @property
@@ -115,7 +115,7 @@ ALLOWED: Mapping[str, Allowed] = {
 
 
 class LowProfileLength(StrEnum):
-    """The length whose half limits the height of the center of gravity."""
+    """The length that limits the height of the center of gravity to half of it."""
 
     BASE = "smallest plan dimension of the supporting base"
     SPACING = "smallest spacing of the supports"
@@ -168,7 +168,7 @@ class RuleSet:
         return replace(self, values=values)
 
     def confirmed(self) -> RuleSet:
-        """Return the rule set as compared with its text: no number but an override has a mark."""
+        """Return the rule set as confirmed against its text: only overrides are marked."""
         # An override keeps its reason, and by that its mark.
         values = {
             key: replace(row, confidence=Confidence.CONFIRMED) for key, row in self.values.items()

@@ -2,8 +2,8 @@
 
 Site class D has F_a = 1.4 at S_S = 0.5, and 1.3 at 0.625, halfway to the next column.
 
-ASCE 7-22 has none. A package uses the coefficients that its workbook gives; the workbook shows
-these beside them. Read `site_coefficient`, then `site_specific_reason`.
+ASCE 7-22 has none. A package uses the coefficients entered in its workbook; the workbook shows
+these next to them. Read `site_coefficient`, then `site_specific_reason`.
 """
 
 from __future__ import annotations
@@ -93,11 +93,11 @@ def site_specific_reason(
 ) -> tuple[str, Sequence[str]]:
     """Return why a site needs a site-specific hazard analysis; empty if it does not.
 
-    With the mapped values that are not given, where these decide whether it does.
+    Names the missing mapped values if they decide whether it does.
 
     ASCE 7-16 11.4.8: site class F; E where the tables have no coefficient; D with S_1 >= 0.2 g. It
-    may where the mapped value that tells is not given. The multi-period values of ASCE 7-22 leave
-    site class F.
+    may need one if the deciding mapped value is not entered. The multi-period values of ASCE 7-22
+    leave site class F.
     """
     if site_class == "F":
         return "site class F", ()

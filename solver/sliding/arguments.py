@@ -1,7 +1,7 @@
-"""Checks the arguments of a run, and makes a scene of them.
+"""Checks the arguments of a run and builds a scene from them.
 
-A step of -0.1 s with a friction coefficient of -1 is one error of two lines: every error is
-collected before one is raised. Runs nothing (`solver.sliding.checked` does). Read `scene_of`.
+A step of -0.1 s with a friction coefficient of -1 is one error with two lines: all errors are
+collected before raising. Runs nothing (`solver.sliding.checked` does). Read `scene_of`.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _LARGEST = 1e120
 
 
 class MotionArguments(NamedTuple):
-    """The motion of a roof as a caller gives it: nothing is checked."""
+    """The motion of a roof as passed by the caller, unchecked."""
 
     ax_mps2: Given
     ay_mps2: ArrayLike | Record | None
@@ -52,9 +52,9 @@ def scene_of(
     method: str | Method = "exact",
     parameters: Parameters = MappingProxyType({}),
 ) -> Scene:
-    """Return the scene with read-only contiguous records, or raise with every error found.
+    """Return the scene with read-only contiguous records, or raise all errors found.
 
-    Warns of arrays that are far too weak to slip anything, and so may be in g.
+    Warns if arrays are far too weak to cause slip and may therefore be in g.
     """
     problems: list[str] = []
     ax_mps2, ay_mps2, az_mps2, dt_s, scale, units = shaking
@@ -180,7 +180,7 @@ def is_method(method: object) -> bool:
 
 
 def method_of(method: str | Method) -> Method:
-    """Return a method, by its name or as it is."""
+    """Return a method, from its name or unchanged."""
     if isinstance(method, Method):
         return method
     return EXACT if method == EXACT.name else methods()[method]
@@ -329,7 +329,7 @@ def checked_records(
 
 
 def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:
-    """Return the arguments that the two-axes solver does not accept."""
+    """Return the arguments not accepted by the two-axes solver."""
     problems: list[str] = []
     if method_of(method) is not EXACT:
         problems.append(
@@ -347,7 +347,7 @@ def _plane_faults(method: str | Method, parameters: Parameters) -> list[str]:
 
 
 def _faults(method: Method, parameters: Parameters, with_vertical: bool) -> list[str]:
-    """Return the arguments that a method does not accept, and parameter values out of range."""
+    """Return the arguments not accepted by a method, and parameter values out of range."""
     problems: list[str] = []
     if with_vertical and not method.takes_vertical:
         problems.append(f"method {method.name!r} takes horizontal shaking only; omit az_mps2")

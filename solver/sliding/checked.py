@@ -40,7 +40,7 @@ def slide(
     ----------
     ax_mps2 : array_like, shape (n,), Record or Motion
         Horizontal roof acceleration at even intervals [m/s2], linear between samples. A motion is
-        taken with all its components and its scale, as recorded. The index of a Series of pandas is
+        used with all its components and its scale, as recorded. The index of a Series of pandas is
         its time, in seconds or as time deltas, unless it counts samples; its unit is that of its
         name, such as ``a_g``, or `units`.
     dt_s : float, optional
@@ -65,7 +65,7 @@ def slide(
         algorithm of Eqs. 1-19 of "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to
         Seismic Motion", horizontal shaking only.
     units : {"g", "m/s2", "cm/s2", "mm/s2"}, optional
-        Of arrays; m/s2 unless given, with a warning where that is too weak to slip anything.
+        Unit of arrays; by default m/s2, with a warning if they are too weak to cause slip.
     **parameters : float
         Parameters of the method: `substeps` per sampling interval; `stiffness_per_m` of a link per
         unit weight of the block [1/m]; `velocity_mps` and relative `tolerance` of the regularized
@@ -211,18 +211,18 @@ def motion(
     Parameters
     ----------
     ax_mps2 : array_like, shape (n,), Record or Motion
-        Horizontal acceleration [m/s2]; a motion is taken with its components, and scaled.
+        Horizontal acceleration [m/s2]; a motion is used with its components and scale.
     ay_mps2, az_mps2 : array_like, shape (n,), or Record, optional
         The other horizontal acceleration and the vertical one, positive up [m/s2].
     dt_s : float, optional
         Sampling interval [s], > 0; a record or a motion has its own.
     id, source : str
-        Name, by default that of the record, and where the motion comes from.
+        Name, by default that of the record, and origin of the motion.
     scale : float
         Factor on all components.
     signs : tuple of int
         Polarities in which a study runs each horizontal component, from {+1, -1}: by default those
-        of a motion that is given, or both.
+        of the motion passed, or both.
     units : {"g", "m/s2", "cm/s2", "mm/s2"}, optional
         Of arrays; m/s2 unless given.
 
@@ -271,9 +271,9 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     Parameters
     ----------
     scene : Scene
-        As `solver.scene` or `Motion.scene` makes it.
+        Created by `solver.scene` or `Motion.scene`.
     settings : Settings
-        What matters, or which model to use.
+        Criteria, or the model to use.
 
     Returns
     -------
@@ -283,7 +283,7 @@ def solve(scene: Scene, settings: Settings = DEFAULT) -> Solution:
     Raises
     ------
     InputError
-        For a scene made by hand with values that `solver.scene` does not take, or a model that the
+        For a scene built without `solver.scene` that has invalid values, or for a model that the
         scene does not allow.
 
     Examples
@@ -306,7 +306,7 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     solution : Solution
         Of this scene.
     settings : Settings
-        As given to `solve`.
+        Same as passed to `solve`.
 
     Returns
     -------
@@ -315,7 +315,7 @@ def history(scene: Scene, solution: Solution, settings: Settings = DEFAULT) -> S
     Raises
     ------
     InputError
-        As `solve`; for a row of blocks, whose blocks have a history each.
+        Same as `solve`; also for a row of blocks, because each block has its own history.
 
     Examples
     --------
@@ -336,5 +336,5 @@ def _rechecked(scene: Scene) -> Scene:
 
 
 def _is_in_two_axes(scene: Scene) -> bool:
-    """Whether a scene is run in two axes: only there is friction by velocity modeled."""
+    """Whether a scene is run in two axes; only these model velocity-dependent friction."""
     return bool(scene.ay_mps2.size) or not scene.friction.is_constant

@@ -1,11 +1,11 @@
-"""What a method of one axis is, the exact one, and where the others are found by their name.
+"""Definition of a one-axis method, the exact method, and lookup of the others by name.
 
-`methods()["paper"]` is the algorithm of Eqs. 1-19 of the paper, with `substeps` for its knob, which
-a study of accuracy sweeps from coarse to fine.
+`methods()["paper"]` is the algorithm of Eqs. 1-19 of the paper, with `substeps` as its knob, which
+an accuracy study sweeps from coarse to fine.
 
 Checks no input (`solver.sliding.arguments`), builds no results (`solver.sliding.one_axis`) and
-integrates nothing itself (`solver.kernels.one_axis`). The rivals, in `solver.rivals.methods`, are
-loaded when one is asked for. Read `Method` first.
+integrates nothing itself (`solver.kernels.one_axis`). The other methods, in
+`solver.rivals.methods`, are loaded on first use. Read `Method` first.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class AxisScene:
 class Outcome(NamedTuple):
     """Result of a method, along the slope: [m], [m/s], [s].
 
-    The largest speed and the events are those of the exact kernel, the events where a history is
-    asked for: time, number of the kind and s, shape (m, 3). NaN and none without it.
+    The largest speed and the events come from the exact kernel, the events only if a history is
+    requested: time, number of the kind and s, shape (m, 3). NaN and none without it.
     """
 
     followed: bool

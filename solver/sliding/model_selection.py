@@ -89,8 +89,8 @@ _LENGTHS = ("prd_m", "down_m", "up_m", "across_m", "residual_m", "residual_acros
 class Solution:
     """Result of a scene, the model used, and the effect of a more complete model.
 
-    What the choice of the model did not need is computed once, when it is first asked for:
-    `reason` and `next_effect_m` take the runs that were left out, `friction_demand` the samples.
+    Values not needed to select the model are computed once, on first access: `reason` and
+    `next_effect_m` make the skipped runs, `friction_demand` reads the samples.
 
     Attributes
     ----------
@@ -116,8 +116,8 @@ class Solution:
     def next_effect_m(self) -> float:
         """Largest change of the PRD, an excursion or a residual by the more complete models [m].
 
-        From runs of them, and including their errors; inf if such a run gives no displacement, NaN
-        if the input has no data for a more complete model.
+        From runs of these models, including their errors; inf if such a run gives no displacement,
+        NaN if the input has no data for a more complete model.
         """
         return self._explained[1]
 
@@ -154,12 +154,12 @@ def solve(
     If the friction demand never exceeds the coefficient at rest, the block does not slip and no
     models are compared. Otherwise the simplest model is used whose PRD, excursions and residuals
     agree within `Settings.bound_m` with those of all more complete ones, error bounds included. The
-    run in two axes is left out where the record alone shows that cross-slope shaking changes less
-    (`solver.kernels.cross_slope`); the runs in one axis, where that in two goes farther across than
-    may be neglected. Velocity-dependent friction is modeled whenever the scene has it. If the
-    normal force falls below zero no model gives a displacement, not even a forced one. `bounds` are
-    those of the scene, where they are known.
-    Raises `InputError` for a forced model that the scene does not allow.
+    run in two axes is skipped if the record alone shows that cross-slope shaking changes less
+    (`solver.kernels.cross_slope`); the runs in one axis are skipped if the cross-slope displacement
+    in two axes is not negligible. Velocity-dependent friction is always modeled if the scene
+    specifies it. If the normal force falls below zero no model gives a displacement, not even a
+    forced one. `bounds` are those of the scene, if known. Raises `InputError` for a
+    forced model that the scene does not allow.
     """
     if settings.forced is None:
         return _climbed(scene, settings, bounds)
@@ -199,7 +199,7 @@ def _climbed(scene: Scene, settings: Settings, bounds: RecordBounds | None) -> S
 def _chosen(
     scene: Scene, settings: Settings, bounds: RecordBounds | None, first: int
 ) -> tuple[Model, SlideResult, SlideResult | None]:
-    """Return the simplest adequate model, its result, and that in two axes where it was needed."""
+    """Return the simplest adequate model, its result, and the two-axes result if it was needed."""
     both, at_most = None, 0.0
     if scene.ay_mps2.size:
         bounds = bounds or bounds_of(scene)
@@ -232,7 +232,7 @@ def _chosen(
 
 
 def _second_axis_at_most(scene: Scene, settings: Settings, first: int) -> float:
-    """Return what the second horizontal component changes at most [m]; inf if not known."""
+    """Return the largest possible effect of the second horizontal component [m]; inf if unknown."""
     effect: float = kernel.cross_slope_effect(
         *components(scene),
         scene.dt_s,
@@ -311,7 +311,7 @@ def _forced(scene: Scene, settings: Settings, model: Model, demand: float) -> So
 def _explain_request(
     scene: Scene, settings: Settings, model: Model, result: SlideResult, why: str
 ) -> _Explanation:
-    """Return what `_explain` returns, for a model in one axis that was requested."""
+    """Return the result of `_explain` for a requested model in one axis."""
     fuller = []
     if scene.ay_mps2.any():
         fuller.append(two_axes.run(as_run(scene, Model.TWO_AXES), settings.tolerance))
@@ -323,7 +323,7 @@ def _explain_request(
 def _solution(
     scene: Scene, model: Model, result: SlideResult, explain: Callable[[], _Explanation]
 ) -> Solution:
-    """Return a solution with the next model that the records of the scene are enough for."""
+    """Return a solution with the next model supported by the records of the scene."""
     # Without a record for a component no model has anything to add.
     following = model
     if model is Model.ONE_AXIS and scene.az_mps2.size:
@@ -374,7 +374,7 @@ def _in_plane(scene: Scene, settings: Settings, model: Model, why: str) -> Solut
 def as_run(scene: Scene, model: Model) -> Scene:
     """Return the scene as a model runs it, without the vertical or the friction law it neglects.
 
-    The cross-slope component is still there where a run in one axis ignores it.
+    The cross-slope component is kept; a run in one axis ignores it.
     """
     if model is Model.NO_SLIP:
         # It never leaves rest, where this coefficient holds.

@@ -49,7 +49,7 @@ def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideRe
 
 
 def run_bounded(scene: Scene, bounds: RecordBounds) -> SlideResult:
-    """Return `run` of a scene whose bounds are known, by the exact method."""
+    """Return `run` of a scene with known bounds, by the exact method."""
     # None, not zeros: the kernel is compiled once more for it (`slide_exact`).
     az, z = (scene.az_mps2, bounds.z) if scene.az_mps2.size else (None, None)
     n_min_g, cs, error_m, *run = kernel.slide_checked(

@@ -1,10 +1,10 @@
-"""One record, a slope and a coefficient of friction that are plainly in order: `slide` at once.
+"""Fast path of `slide` for one record, a slope and a friction coefficient that are plainly valid.
 
     record of `read_record`, mu = 0.4, a slope of 2 degrees:  a quarter of the time with all checks,
     two fifths where its array can be written to, so that no bounds are kept
 
-Says nothing of what is wrong: for whatever it does not know it returns None, and
-`solver.sliding.arguments` then finds every fault. Equal to the long way to the last bit.
+Reports no errors: for anything else it returns None, and `solver.sliding.arguments` then finds
+every fault. Bit-identical to the full path.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _ROOM = 64  # records that are kept: a few suites
 
 
 class _Prepared(NamedTuple):
-    """What every run of a record needs; the record, so that its id is given to no other one."""
+    """Data common to all runs of a record, and the record itself, so that its id is not reused."""
 
     record: Record
     a_mps2: Floats
@@ -66,7 +66,7 @@ def quick_slide(
 
 
 def _prepared(record: Record) -> _Prepared | None:
-    """Return a record with its bounds, kept where nobody can change it; None if it is unusual."""
+    """Return a record with its bounds, cached if it is read-only; None if it is unusual."""
     a, dt = record.a_mps2, record.dt_s
     if not (type(a) is np.ndarray and a.dtype == np.float64 and a.ndim == 1 and a.size > 1):
         return None

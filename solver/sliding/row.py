@@ -93,7 +93,7 @@ def slide_row(scene: Scene, row: BlockRow) -> RowResult:
 def row_history(scene: Scene, row: BlockRow) -> Floats:
     """Return the displacement of each block at the samples, shape (blocks, n) [m].
 
-    NaN if `slide_row` gives no displacement; errors as in `slide_row`.
+    NaN if `slide_row` gives no displacement; same errors as `slide_row`.
     """
     samples = np.full((len(row.mus), scene.ax_mps2.size), np.nan)
     result = _run(scene, row, samples)

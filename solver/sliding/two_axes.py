@@ -93,7 +93,7 @@ def run(scene: Scene, tolerance: float = DEFAULT_TOLERANCE) -> SlideResult:
 
 
 def run_bounded(scene: Scene, tolerance: float, bounds: RecordBounds) -> SlideResult:
-    """Return `run` of a scene whose bounds are known."""
+    """Return `run` of a scene with known bounds."""
     return _run_checked(scene, tolerance, bounds)[0]
 
 
@@ -173,7 +173,7 @@ def _followed(scene: Scene, tolerance: float, bounds: RecordBounds) -> TwoAxesOu
 
 
 def _rounding_m(scene: Scene, outcome: TwoAxesOutcome) -> float:
-    """Return what rounding error of the accelerations and of the positions adds up to [m]."""
+    """Return the sum of the rounding errors of the accelerations and of the positions [m]."""
     friction, seconds = scene.friction, scene.dt_s * (scene.ax_mps2.size - 1)
     along, across, up = (float(np.abs(a).max()) for a in components(scene))
     largest_mu = max(friction.mu_slow, friction.mu_fast, friction.mu_static)

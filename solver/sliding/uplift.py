@@ -84,8 +84,9 @@ class Supports:
 class Tipping:
     """Shear transmitted by the supports compared with the shear at which the block begins to tip.
 
-    Up to slip that is the lesser of the demand and the static friction coefficient, over the
-    capacity; while the block slides, the kinetic one over the capacity, and 0 with no slip.
+    Before slip, the ratio is the smaller of the demand and the static friction coefficient, divided
+    by the capacity; while the block slides, the kinetic coefficient divided by the capacity, and 0
+    with no slip.
     """
 
     demand: float  # largest shear over normal force with no slip; inf if the block lifts off
@@ -95,7 +96,7 @@ class Tipping:
 
     @property
     def ratio(self) -> float:
-        """The greater of the two."""
+        """The larger of the two ratios."""
         return max(self.at_rest_ratio, self.sliding_ratio)
 
     @property

@@ -1,6 +1,7 @@
-"""What set-up runs, so that the first report does not wait for the kernels to be compiled.
+"""Run at set-up, so that the first report does not wait for the kernels to compile.
 
-`python -m solver.sliding.warm constant law` compiles all that a report needs and keeps it on disk.
+`python -m solver.sliding.warm constant law` compiles everything that a report needs and caches it
+on disk.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ def constant_friction() -> None:
 
 
 def friction_law() -> None:
-    """Two axes with a friction law, without what the other part compiles; response spectra."""
+    """Two axes with a friction law, without the parts compiled by the other; response spectra."""
     two_axes.follow(_shaken(_VARYING))
     response_spectrum(_SHAKING, _DT_S, [0.5, 1.0])
 

@@ -1,4 +1,4 @@
-"""The runs of a study: every case under every motion at every heading, split into equal parts.
+"""The runs of a study: every case under every motion in every orientation, in equal batches.
 
 Two slopes, three friction coefficients and five intensities are 30 cases; under seven motions of
 two components in two polarities they are 840 runs. Runs nothing. Read `Campaign`.

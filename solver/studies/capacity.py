@@ -1,8 +1,8 @@
 """The capacity of each motion: the lowest intensity at which its PRD exceeds a limit.
 
-A motion of 0.1 m at 0.2 g and of 0.6 m at 0.4 g exceeds a limit of 0.3 m from somewhere between on.
+A motion with a PRD of 0.1 m at 0.2 g and 0.6 m at 0.4 g first exceeds a limit of 0.3 m in between.
 
-Found by runs of its own, as those of a study, not read off the levels of a study. Fits
+Found by dedicated runs, not read from the levels of a study. Fits
 nothing (`fragility` does). Read `capacities`.
 """
 
@@ -69,7 +69,7 @@ class Curve:
 
     @property
     def runs(self) -> int:
-        """How many runs there were so far."""
+        """Number of runs so far."""
         return sum(len(by_intensity) for _, by_intensity in self._alone)
 
     def prd_m(self, intensity: Floats, limit_m: float = math.inf) -> Floats:
@@ -161,8 +161,7 @@ def capacities(
     levels : array, shape (m,)
         Increasing intensities above 0.
     is_censoring : bool
-        Whether a run without a value ends what is known of its motion; otherwise it counts as an
-        exceedance.
+        Whether a run without a value censors its motion; otherwise it is treated as an exceedance.
     to_end : bool
         Whether to run intensities above the first beyond all limits: `Capacities.end` and
         `Capacities.falls` need them.
@@ -235,7 +234,7 @@ def _of_motion(
 def _until_beyond(
     curve: Curve, intensity: Floats, limit_m: float, decisive_m: float
 ) -> Iterator[float]:
-    """Yield the PRD at increasing intensities, up to the first that is beyond a limit."""
+    """Yield the PRD at increasing intensities, up to the first that exceeds a limit."""
     for x in intensity:
         (prd_m,) = curve.prd_m(x[None], decisive_m).tolist()
         yield prd_m
@@ -257,7 +256,7 @@ def _may_exceed(x: Floats, prd_m: Floats, limit_m: float) -> Flags:
 
 
 def _may_exceed_at(x: float, known: dict[float, float], limit_m: float) -> bool:
-    """Return whether the limit may be exceeded at an intensity beside those that are known."""
+    """Return whether the limit may be exceeded at an intensity next to the known ones."""
     xs = sorted(known)
     place = bisect(xs, x)
     if place in (0, len(xs)):

@@ -2,8 +2,8 @@
 
 Peaks of 0.1, 0.2 and 0.3 m have a mean of 0.2 m, and a design curve of 0.22 m at 1.1 times it.
 
-A PRD that is NaN is a run without a value (uplift, or sliding at the end of the record): it counts
-as larger than any limit and is never left out. Runs nothing. Read `statistics` first.
+A PRD that is NaN is a run without a value (uplift, or sliding at the end of the record): it is
+treated as larger than any limit and is never omitted. Runs nothing. Read `statistics` first.
 
 A closed formula fitted to a displacement of a study, with its error and its domain.
 """
@@ -56,10 +56,10 @@ def statistics(prd_m: Floats) -> Statistics:
 
 
 def first_allowed(values: Floats, prd_m: Floats, allowed_m: float) -> float:
-    """Return the value from which on, in the order given, the PRD does not exceed a limit.
+    """Return the first value, in the order given, beyond which the PRD does not exceed a limit.
 
-    Of increasing friction coefficients it is the least that is enough, the reading of the paper's
-    Fig. 12; of decreasing slopes the largest that is allowed. Interpolated between the runs; the
+    For increasing friction coefficients it is the smallest sufficient one, as read from the paper's
+    Fig. 12; for decreasing slopes, the largest permitted one. Interpolated between the runs; the
     first value if none exceeds the limit, NaN if the last does. `values` are in any unit; they and
     `prd_m` have the shape (q,).
     """
@@ -90,7 +90,7 @@ DIGITS = 4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Fit:
-    """A fitted formula: what it is fitted to are the cases in its domain."""
+    """A fitted formula; it is fitted to the cases in its domain."""
 
     coefficients: tuple[float, ...]  # b0 to b4, for a PRD in meters, to `DIGITS`
     ppa_g: float  # p, mean peak acceleration of the motions at intensity 1 [g], to `DIGITS`
@@ -101,7 +101,7 @@ class Fit:
     domain: Mapping[str, tuple[float, float]]  # of slope [rad], friction, intensity, r, PRD [m]
 
     def prd_m(self, slope_rad: float, mu: float, intensity: float) -> float:
-        """Return the fitted PRD [m], of a case that the formula covers."""
+        """Return the fitted PRD [m] of a case covered by the formula."""
         r = self._r(slope_rad, mu, intensity)
         terms = _terms(*map(np.asarray, (slope_rad, mu, intensity, r)))
         return float(np.exp(terms @ np.array(self.coefficients)))

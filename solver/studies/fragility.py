@@ -68,11 +68,11 @@ class Fragility:
     levels : array, shape (m,)
         Intensities.
     exceeded, counted : array of int, shape (m,)
-        Exceedances, and motions that they are counted in: for plots, not fitted.
+        Exceedances, and number of motions counted: for plots, not fitted.
     censored : int
-        Runs that are in no count, because they have no value and are stated as censored.
+        Runs excluded from the counts because they have no value and are declared censored.
     capacities : Capacities
-        What is fitted.
+        The capacities that are fitted.
     fitted : Lognormal
     theta_range, beta_range : tuple of float
         Confidence interval of `CONFIDENCE`; NaN if not determined.

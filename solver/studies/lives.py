@@ -1,8 +1,8 @@
-"""What a roof sees in its life: events by Poisson, whose displacements accumulate.
+"""Service life of a roof: Poisson events with cumulative displacement.
 
-Two events of 0.3 m downslope leave an array 0.6 m away, unless it is put back between them.
+Two events of 0.3 m downslope leave an array 0.6 m away, unless it is moved back between them.
 
-The responses are runs of their own, as those of a study. Read `draw`, then `distances`.
+The responses are computed by dedicated runs, as in a study. Read `draw`, then `distances`.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ SETTLED, SETTLED_M = 0.005, 1e-4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Responses:
-    """What events of increasing intensity do to an array."""
+    """Response of an array to events of increasing intensity."""
 
     levels: Floats  # equally spaced in ln up to the last of the run, which repeats; (runs, m)
     values: Floats  # `RESPONSES` [m], NaN without a final value; (frictions, runs, m, 6)
@@ -159,9 +159,9 @@ def draw(
 
 
 def distances(draws: Draws, responses: Responses, recenter_m: float) -> Floats:
-    """Return the largest distance from the installed place and the last one, shape (2, lives) [m].
+    """Return the largest and the last distance from the installed location, shape (2, lives) [m].
 
-    The array is put back after an event beyond `recenter_m`: inf for never, 0 for always. In two
+    The array is moved back after an event beyond `recenter_m`: inf for never, 0 for always. In two
     axes the largest is an upper bound (`solver.kernels.lives`); inf for a life with an event
     without a final value.
     """

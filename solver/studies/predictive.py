@@ -1,4 +1,4 @@
-"""The friction coefficient of a roof that was not tested, from the runs of tests.
+"""The friction coefficient of an untested roof, predicted from test runs.
 
 Runs of 0.40, 0.42 and 0.44 on one surface have a mean of 0.42 and a scatter of 0.02; the next run
 is 0.376 or more in nine of ten cases, by Student's t with two degrees of freedom.
@@ -52,7 +52,7 @@ class Predictive:
 
     @property
     def quantiles(self) -> tuple[float, ...]:
-        """Coefficients at `QUANTILES`, equally likely."""
+        """Equally likely coefficients at `QUANTILES`."""
         return tuple(map(self.quantile, QUANTILES))
 
     def more_runs(self, required_mu: float) -> float:

@@ -1,6 +1,6 @@
 """Annual rates of displacement from a hazard curve and runs at many intensities.
 
-A limit that every motion exceeds from 0.3 g on has the rate at which 0.3 g is exceeded.
+If every motion exceeds a limit above 0.3 g, its rate is the exceedance rate of 0.3 g.
 
 Runs nothing. Read `HazardCurve`, then `contributions`.
 """
@@ -36,8 +36,8 @@ _FAR = 4.0
 class HazardCurve:
     """Annual rate at which intensities are exceeded: a power law between its points.
 
-    Below its first point no event is known. Beyond its last the rate is that of events of unknown
-    intensity, which are never left out: it does not decrease.
+    Below its first point no event is known. Beyond its last point the rate does not decrease: it is
+    the rate of events of unknown intensity, which are never omitted.
     """
 
     intensity: Floats  # increasing, above 0, shape (m,)
@@ -168,7 +168,7 @@ def displacements_at(limits_m: Floats, rates: Floats, years: Floats) -> Floats:
 
 
 def realizations(rates: Floats, *, seed: int) -> Floats:
-    """Return rates for friction coefficients and sets of motions as they might have been.
+    """Return rates for resampled friction coefficients and sets of motions.
 
     Each has one of the coefficients, equally likely, and as many motions, drawn with replacement:
     from the shape (limits, frictions, motions) to (limits, `REPEATS`).

@@ -1,4 +1,4 @@
-"""Runs a part of a study, each row as `solver.solve` solves it with `SETTINGS`, to the bit.
+"""Runs a batch of a study; each row is bit-identical to `solver.solve` with `SETTINGS`.
 
 Motions of one horizontal component are run many cases at a time, with what the choice of the model
 needs from a record computed once; others by `solver.sliding.model_selection`. Read `run_part`.
@@ -63,7 +63,7 @@ def run_part(runner: Runner, part: slice) -> Rows:
 
 @dataclass(frozen=True)
 class Runner:
-    """A campaign with its records prepared once."""
+    """A campaign whose records are prepared once."""
 
     campaign: Campaign
 
@@ -131,7 +131,7 @@ def scene_of(scene: Scene, slope_mu_scale: Floats) -> Scene:
 
 
 def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
-    """Solve scenes in one axis as `model_selection.solve`; return those that it must solve itself.
+    """Solve scenes in one axis like `model_selection.solve`; return those left for it to solve.
 
     These are uplift that only the kernel or only the forces at the samples find, by rounding error.
     """

@@ -3,7 +3,7 @@
 Two slopes, three coefficients and five intensities are 30 cases; under seven motions of one
 component in two polarities they are 420 runs.
 
-Workbooks, parts on disk and clusters are those of `report.study`. Read `study`, then `StudyRuns`.
+`report.study` handles workbooks, batches on disk and clusters. Read `study`, then `StudyRuns`.
 """
 
 from __future__ import annotations
@@ -91,9 +91,9 @@ class StudyRuns:
         return statistics(self.prd_m)
 
     def minimum_friction(self, allowed_m: float) -> Floats:
-        """Return the least friction from which on the mean PRD is allowed, shape (p, r).
+        """Return the lowest friction for which the mean PRD is permitted, shape (p, r).
 
-        Interpolated between the coefficients run; NaN where the largest is not enough. A rule set
+        Interpolated between the coefficients run; NaN if the largest is not sufficient. A rule set
         multiplies the mean: divide `allowed_m` by that factor.
         """
         mean = self.statistics().mean_m
@@ -107,8 +107,8 @@ class StudyRuns:
     def fragility(self, limit_m: float, *, slope_rad: float, mu: float, seed: int = 1) -> Fragility:
         """Return the lognormal fragility of a limit on the PRD of a motion.
 
-        The capacity of each motion is searched by runs of its own up to the greatest intensity; a
-        run without a final value exceeds the limit. Needs SciPy, which `./roofslip study` installs.
+        The capacity of each motion is found by dedicated runs up to the highest intensity; a run
+        without a final value exceeds the limit. Requires SciPy, which `./roofslip study` installs.
         """
         from solver.studies.fragility import fragility  # with SciPy, which is optional
 
@@ -154,8 +154,8 @@ def study(
 ) -> StudyRuns:
     """Run every slope, friction and intensity under every motion.
 
-    Each motion is run in all its orientations. Each run is that of `solver.solve`, to the bit, with
-    a tolerance of 1e-4. The runs are distributed over all cores.
+    Each motion is run in all its orientations. Each run is bit-identical to `solver.solve` with a
+    tolerance of 1e-4. The runs are distributed over all cores.
 
     Parameters
     ----------

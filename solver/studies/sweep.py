@@ -198,7 +198,7 @@ def sweep_all(
 
 
 class _Given(NamedTuple):
-    """The components that a sweep is given [m/s2], their step, and the factor of a motion."""
+    """The components passed to a sweep [m/s2], their step, and the factor of a motion."""
 
     ax: Floats
     ay: Floats
@@ -278,7 +278,7 @@ def _swept(
 
 
 def _share(progress: Callable[[float], None], n: int, count: int) -> Callable[[float], None]:
-    """Return what is told the progress within record n of some."""
+    """Return a progress callback for record n of several."""
     return lambda share: progress((n + share) / count)
 
 
@@ -314,7 +314,7 @@ def _run_in_plane(
 
 
 def axis(name: str, values: ArrayLike, above: float, below: float, problems: list[str]) -> Floats:
-    """Return the values of an axis, between two limits, adding a problem for what is not."""
+    """Return the values of an axis, between two limits, adding a problem for every invalid one."""
     try:
         samples = np.atleast_1d(np.asanyarray(values))
     except (TypeError, ValueError, OverflowError):

@@ -1,4 +1,4 @@
-"""Uncertain friction, slope and intensity, and what they make of a displacement.
+"""Uncertain friction, slope and intensity, and their effect on a displacement.
 
 A friction coefficient with a median of 0.40 and a beta of 0.1 is 0.34 at its 5% quantile and 0.47
 at its 95% quantile.
@@ -130,7 +130,7 @@ class Bar:
 
     @property
     def width_m(self) -> float:
-        """Length of the bar [m]; infinite where an end has no value."""
+        """Length of the bar [m]; infinite if an end has no value."""
         width = abs(self.prd_high_m - self.prd_low_m)
         return math.inf if math.isnan(width) else width
 

@@ -77,7 +77,7 @@ def band(per_octave: int, low_hz: float) -> Floats:
 def shifted_grids(low_hz: float) -> Floats:
     """Frequencies [Hz] of `GRIDS` grids of 1/6 octave, one through 1.3 Hz, up to 33.3 Hz.
 
-    A laboratory may lay its points of 1/6 octave anywhere.
+    A laboratory may start its 1/6-octave grid anywhere.
     """
     first, last = (6 * GRIDS * math.log2(hz / _KNEE_HZ) for hz in (low_hz, BAND_HZ[1]))
     return _KNEE_HZ * 2.0 ** (np.arange(math.ceil(first), math.floor(last) + 1) / (6 * GRIDS))
@@ -241,7 +241,8 @@ def _peaks(frame: MatchingFrame, a: Floats) -> tuple[Floats, _Samples]:
 def matched(frame: MatchingFrame, a: Floats) -> Floats:
     """Corrected motion with a small mean ratio / smallest ratio to the target, wherever it is.
 
-    The spectrum is looked at between the matched frequencies as well, and its minima join them.
+    The spectrum is also evaluated between the matched frequencies, and its minima are added to
+    them.
     """
     between = replace(frame, freq_hz=band(_LOOKED_AT, float(frame.freq_hz[0])))
     goal = _goal_mps2(between)
@@ -291,7 +292,7 @@ class _Rows(NamedTuple):
 
 
 def _asked(frame: MatchingFrame, a: Floats) -> _Rows:
-    """Return the peaks of all oscillators, and the highest other crests beyond the interval."""
+    """Return the peaks of all oscillators, and the highest other crests outside the interval."""
     goal, omega = _goal_mps2(frame), 2.0 * math.pi * frame.freq_hz
     peak, samples = _peaks(frame, a)
     ratio = np.abs(peak) / goal

@@ -1,7 +1,7 @@
-"""Generates roof motions of three components, from noise or records, that match a target.
+"""Generates three-component roof motions that match a target, from noise or records.
 
-Draws motions and accepts or rejects them; the matching is in `solver.synthesis.matching`. Knows no
-code rules and no files. Read `make_suite` first, then `synthesize`.
+Samples motions and accepts or rejects them; the matching is in `solver.synthesis.matching`. Knows
+no code rules and no files. Read `make_suite` first, then `synthesize`.
 """
 
 from __future__ import annotations
@@ -349,7 +349,7 @@ def _fit(
 
 
 def _lowest(frame: MatchingFrame, a: Floats) -> float:
-    """Smallest ratio on those grids: of some points, and of all around the lowest of them."""
+    """Smallest ratio on those grids: at some points, and at all points near the lowest of them."""
     count = len(shifted_grids(float(frame.freq_hz[0])))
     ratio = _fit(frame, a, slice(None, None, _COARSE)).ratio
     low = _COARSE * np.flatnonzero(ratio <= _NEAR_LOWEST * ratio.min())

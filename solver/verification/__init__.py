@@ -1,1 +1,1 @@
-"""Verification: what the software is held against, as plain data. Read `run.verify` first."""
+"""Verification against independent results, as plain data. Read `run.verify` first."""

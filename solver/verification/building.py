@@ -106,7 +106,7 @@ def _plain(point: _Point) -> _Point:
 def _descend(
     misfit: Callable[[_Point], float], minimum: float, best: _Point
 ) -> tuple[float, _Point]:
-    """Step to the best of the neighbors on each axis; halve the steps where none is better."""
+    """Step to the best adjacent point on each axis; halve the steps if none is better."""
     reach = np.array([_PERIOD_STEP / 2.0, 0.4, 0.4])
     while reach[0] > _LAST_STEP:
         around: list[_Point] = []

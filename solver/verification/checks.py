@@ -279,7 +279,7 @@ def fifty_digits(blocks: Iterable[KnownBlock]) -> Iterator[Verified]:
 
 
 def rival_errors(kinds: Mapping[str, Sequence[KnownBlock]]) -> pd.DataFrame:
-    """Run every method on every block that it takes, beside `reference`.
+    """Run every method on every block that it accepts, and compare with `reference`.
 
     Returns
     -------
@@ -300,7 +300,7 @@ def rival_errors(kinds: Mapping[str, Sequence[KnownBlock]]) -> pd.DataFrame:
 
 
 def claims(errors: pd.DataFrame) -> Iterator[Verified]:
-    """Check that methods which are said never to be invalid have no error but rounding."""
+    """Check that methods declared always valid have no error other than rounding."""
     source = "Decimal arithmetic, as DA-1: what section 4 says, never invalid, and as accurate"
     row = partial(Verified, "ME-2", source, "Largest error of PRD and residual", "1")
     runnable = runnable_methods()

@@ -1,6 +1,6 @@
-"""Checks of what a design takes beside the displacement: code rules, spectra, uplift, tipping.
+"""Checks of design inputs other than the displacement: code rules, spectra, uplift, tipping.
 
-Returns the same rows as `checks`; expected values are those of a published permit calculation, or
+Returns the same rows as `checks`; expected values are from a published permit calculation, or
 computed here by hand.
 """
 

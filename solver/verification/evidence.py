@@ -1,6 +1,6 @@
 """Results of a verification: frozen records, and data frames where every row is a run.
 
-Computes only values read from the curves. See `solver.verification.run` for what fills them.
+Computes only values read from the curves. `solver.verification.run` fills them.
 
 Results of the comparison of models: frozen records, and data frames where every row is a run.
 """
@@ -32,7 +32,7 @@ OVER_STATIC = "Static and kinetic μ / static μ"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModelChange:
-    """Effect of a fuller model on the PRD, over many runs."""
+    """Effect of a more complete model on the PRD, over many runs."""
 
     name: str
     # shape (n,): PRD of the fuller model over that of the simpler, ascending, for the runs in which
@@ -42,7 +42,7 @@ class ModelChange:
     maximum_m: float  # largest change of the PRD, of either sign, over all runs [m]
 
     def at(self, percent: float) -> float:
-        """Return a percentile of the ratios; NaN where there are none."""
+        """Return a percentile of the ratios; NaN if there are none."""
         return float(np.percentile(self.ratios, percent)) if self.ratios.size else float("nan")
 
     @property
@@ -52,7 +52,7 @@ class ModelChange:
 
     @property
     def share_above_one(self) -> float:
-        """Share of the ratios that are above 1; NaN where there are none."""
+        """Fraction of the ratios above 1; NaN if there are none."""
         return float(np.mean(self.ratios > 1.0)) if self.ratios.size else float("nan")
 
 
@@ -106,7 +106,7 @@ SECTIONS = {
 
 
 def percent_of(off_m: Floats, exact_m: Floats | float) -> Floats:
-    """Return an error in percent of |exact|, or of `FLOOR_M` where |exact| is less."""
+    """Return an error in percent of |exact|, or of `FLOOR_M` if |exact| is less."""
     return np.asarray(100.0 * off_m / np.maximum(np.abs(exact_m), FLOOR_M))
 
 
@@ -206,7 +206,7 @@ class DesignCurves:
         return np.array([np.interp(ppa_g, self.ppas_g, row) for row in by_slope])
 
     def minimum_mu(self, slope_deg: float, ppa_g: float, wanted_m: float) -> float:
-        """Return the least friction coefficient that limits the PRD; see `first_allowed`."""
+        """Return the lowest friction coefficient that limits the PRD; see `first_allowed`."""
         return first_allowed(self.mus, self.prd(slope_deg, ppa_g), wanted_m)
 
 

@@ -13,7 +13,7 @@ from solver.verification.evidence import Verified
 
 @dataclass(frozen=True, slots=True)
 class Feature:
-    """What the program does, and what shows that it does it right."""
+    """One function of the program, and the checks that verify it."""
 
     name: str
     # ids of checks that verify it; empty if no check of the manual does
@@ -86,7 +86,7 @@ FEATURES = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureStatus:
-    """What the checks of one verification show of a feature."""
+    """Result of the checks of one verification for a feature."""
 
     feature: Feature
     ids: tuple[str, ...]  # checks that ran, by id

@@ -67,7 +67,7 @@ def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
 
 
 def pushed() -> pd.DataFrame:
-    """Return where a block ends that is driven back by a force between kinetic and static friction.
+    """Return the final place of a block driven back by a force between kinetic and static friction.
 
     Returns
     -------
@@ -171,7 +171,7 @@ def _worst_heading(prd_m: Floats, headings: tuple[int, int]) -> Floats:
 
 
 def _change(name: str, lesser_m: Floats, fuller_m: Floats) -> ModelChange:
-    """Compare the runs that both models answer."""
+    """Compare the runs for which both models give a result."""
     # Without the vertical component no block lifts: one model alone may have no displacement.
     answered = ~np.isnan(lesser_m + fuller_m)
     lesser, fuller = lesser_m[answered], fuller_m[answered]

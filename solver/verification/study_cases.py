@@ -191,7 +191,7 @@ def history(record: Record, case: Case, method: str, **parameters: float) -> Sli
 
 
 def posed(solve: Callable[..., T], record: Record, case: Case) -> partial[T]:
-    """Return what solves one case of a record."""
+    """Return a callable that solves one case of a record."""
     scale = scale_to(record, case.ppa_g)
     place = {"slope_rad": case.slope_rad, "mu": case.mu, "scale": scale}
     return partial(solve, record.a_mps2, record.dt_s, **place)
@@ -214,7 +214,7 @@ def clocked(
 def processor_seconds(work: Callable[[], object]) -> float:
     """Return the processor time of a run, the least of several repeats, fewer if they are long [s].
 
-    Leaves out what other programs take while a long run lasts, and counts all threads.
+    Excludes the time of other programs during a long run, and includes all threads.
     """
     _, once_s = clocked(work, CLOCK)
     # A short run many times: reading the clock takes about as long as one.

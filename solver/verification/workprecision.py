@@ -182,7 +182,7 @@ SCIPY = METHODS["events-dop853"].label
 
 
 def _runs_in_plane(scene: Scene, *, interpreted: bool) -> Iterator[tuple[str, float, str, _End]]:
-    """Yield the name of a method and its setting with what runs it, once prepared."""
+    """Yield each method's name and setting with a callable that runs it, once prepared."""
     bounds, rows = bounds_of(scene), samples_of(scene)
     dt, cosine = scene.dt_s, math.cos(scene.slope_rad)
     for tolerance in TOLERANCES:

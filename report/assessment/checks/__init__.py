@@ -1,1 +1,1 @@
-"""Whatever is required of a project, a file for each subject; `every` has all of it."""
+"""The requirements on a project, one file per subject; `every` combines them."""

@@ -1,4 +1,4 @@
-"""Whatever is required of a project, as one record.
+"""A requirement on a project, as one record.
 
 A limit of the code, a document on file, a clearance, a property of the motions, an outcome of a
 run: each is a `Check`, satisfied or not.
@@ -48,7 +48,7 @@ _NOISE = 1e-6
 
 
 class Actor(StrEnum):
-    """Who must act where a check is not satisfied."""
+    """Party who must act if a check is not satisfied."""
 
     ENGINEER = "engineer"
     LABORATORY = "laboratory"
@@ -61,7 +61,7 @@ class Actor(StrEnum):
 
 
 class Sense(StrEnum):
-    """How what is found is compared with what is required."""
+    """Comparison of the value found with the value required."""
 
     AT_LEAST = "≥"
     AT_MOST = "≤"
@@ -70,7 +70,7 @@ class Sense(StrEnum):
 
     @property
     def words(self) -> str:
-        """The same in a sentence."""
+        """The comparison as text for a sentence."""
         return _SENSES[self]
 
 
@@ -84,37 +84,37 @@ _SENSES = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
-    """One thing that is required, and what was found. Always present, satisfied or not."""
+    """One requirement and the value found. Always present, satisfied or not."""
 
     id: str
-    """Kind of requirement, such as `max_stories`, `clearance` or `peer_review`; stable."""
+    """Type of requirement, such as `max_stories`, `clearance` or `peer_review`; stable."""
     title: str
     found: Amount | str
-    """What the project has; words where it is no number."""
+    """The value found; text if it is not a number."""
     limit: Amount | str
-    """What is required of it."""
+    """The value required."""
     sense: Sense = Sense.STATED
     clause: str
-    """Document and clause with its mark, or whose practice it is."""
+    """Document and section with its mark, or whose practice it is."""
     is_satisfied: bool
-    """By the numbers, never by the texts."""
+    """Determined by the numbers, never by the texts."""
     consequence: Consequence = Consequence.NG
-    """What follows where it is not satisfied."""
+    """Consequence if it is not satisfied."""
     is_capacity: bool = True
-    """Whether its ratio is demand over capacity, which may govern; a count of motions is none."""
+    """Whether its ratio is demand / capacity and may govern; a count of motions is not."""
     subject: str = ""
     """Array, motion or clearance, as printed; empty for the project."""
     arrays: tuple[str, ...] = ()
     """Arrays whose verdict it is part of; a clearance is part of two."""
     note: str = ""
-    """Where or from what it was found: `RM1 y, 1.41 Hz`, `96.0 in − 40.8 in`."""
+    """Location or derivation of the value found: `RM1 y, 1.41 Hz`, `96.0 in − 40.8 in`."""
     actor: Actor = Actor.ENGINEER
     remedy: str = ""
-    """What they must do to satisfy it, as a sentence."""
+    """Action that would satisfy it, as a sentence."""
     cell: str = ""
     """Cell that the sentence ends with, in parentheses."""
     otherwise: str = ""
-    """What the project comes to if it is not met, or with another input, as a sentence."""
+    """Result for the project if it is not met, or with another input, as a sentence."""
     places: tuple[Place, ...] = ()
     """Cells of the workbook."""
 
@@ -125,13 +125,13 @@ class Check:
 
     @property
     def to_close(self) -> str:
-        """The remedy of what is not satisfied; empty where nothing is to be done."""
+        """The remedy if it is not satisfied; empty if no action is required."""
         cell = f" ({self.cell})." if self.cell else ""
         return "" if self.is_satisfied else self.remedy.removesuffix("." if cell else "") + cell
 
     @property
     def is_note(self) -> bool:
-        """Whether nothing follows from it, satisfied or not."""
+        """Whether it has no consequence, satisfied or not."""
         return self.consequence is Consequence.NOTE
 
     @property
@@ -141,12 +141,12 @@ class Check:
 
     @property
     def lacks_design(self) -> bool:
-        """Whether it only lacks a design displacement, whose own check says why."""
+        """Whether it only lacks a design displacement; a separate check states why."""
         return NO_DESIGN in (self.found, self.limit)
 
     @property
     def is_excepted(self) -> bool:
-        """Whether it is satisfied beyond its limit, as its note says."""
+        """Whether it is satisfied although its limit is exceeded, as stated in its note."""
         has_numbers = isinstance(self.found, Amount) and isinstance(self.limit, Amount)
         return self.is_satisfied and has_numbers and math.isnan(self.ratio)
 
@@ -154,8 +154,7 @@ class Check:
     def ratio(self) -> float:
         """Demand / capacity: more than 1 is not satisfied.
 
-        Infinity where nothing is given that a number is required of; NaN of words, and of what is
-        permitted beyond its limit.
+        Infinity if a required number is missing; NaN for text, and for a permitted exceedance.
         """
         if isinstance(self.limit, str):
             return math.nan
@@ -183,7 +182,7 @@ def dagger(provision: Provision) -> str:
 
 
 def by_ratio(checks: Iterable[Check]) -> Sequence[Check]:
-    """Return what is NG, then conditions, then the capacities, each the largest ratio first."""
+    """Return NG items, then conditions, then capacities, each with the largest ratio first."""
     ranked = [
         check
         for check in checks
@@ -202,14 +201,14 @@ def verdict_of(checks: Iterable[Check], array: str = "") -> Verdict:
 
 
 class StatedParts(NamedTuple):
-    """What a block states of several parts, and the cells of those that it lacks."""
+    """The entered parts of a block, and the cells of the missing ones."""
 
     found: str
     missing: tuple[Place, ...]
 
 
 def stated(section: str, **parts: tuple[str, object]) -> StatedParts:
-    """Return what a block states of its parts, each a name and a value by its field."""
+    """Return the entered parts of a block, each with a name and a value by its field."""
     values = [str(value) for _, value in parts.values() if value]
     missing = {field: name for field, (name, value) in parts.items() if not value}
     lacks = [f"{', '.join(missing.values())} missing"] if missing else []

@@ -1,4 +1,4 @@
-"""Clearances as wide as is required, and as the roof plan shows them, which has its outline."""
+"""Checks of clearances against the required width and the roof plan, and of the plan itself."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 def of_clearances(done: Assessment) -> Iterator[Check]:
-    """Yield whether each clearance is as wide as is required, and what is left of a pathway."""
+    """Yield whether each clearance is as wide as required, and the remaining pathway width."""
     ids = [item.id for item in done.arrays]
     for index, gap in enumerate(done.clearances):
         yield clearance_check(gap, index, ids)
@@ -36,7 +36,7 @@ def of_clearances(done: Assessment) -> Iterator[Check]:
 
 
 def clearance_check(gap: ClearanceCheck, index: int = 0, ids: Sequence[str] = ()) -> Check:
-    """Return whether a clearance is as wide as is required; of the arrays among `ids`."""
+    """Return whether a clearance is as wide as required, for the arrays among `ids`."""
     row, has_limit = gap.clearance, not math.isnan(gap.required_m)
     return Check(
         id="clearance",
@@ -55,7 +55,7 @@ def clearance_check(gap: ClearanceCheck, index: int = 0, ids: Sequence[str] = ()
 
 
 def of_neighbors(done: Assessment) -> Iterator[Check]:
-    """Yield what the plan shows near an array and no clearance covers, or contradicts."""
+    """Yield items on the plan near an array whose clearance is missing or contradicts the plan."""
     for near in done.neighbors:
         found_value, limit = _found_and_required(near, done.project.us_first)
         for cell, words in near.shortcomings():
@@ -102,7 +102,7 @@ def _found_and_required(near: PlanNeighbor, us_first: bool) -> tuple[Amount | st
 
 
 def of_roof(data: ProjectInput) -> Iterator[Check]:
-    """Yield what is required of the roof plan: its outline, array sections, confirmed distances."""
+    """Yield the requirements on the roof plan: outline, array sections, confirmed distances."""
     has_outline = data.roof.placed is not None
     yield condition(
         id="roof_outline",

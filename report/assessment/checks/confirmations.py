@@ -1,4 +1,4 @@
-"""What is entered, dated and confirmed: building code, dates, provisions, peer review."""
+"""Checks of entries, dates and confirmations: building code, dates, provisions, peer review."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from solver.rules.rulesets import RULE_SETS
 
 
 def of_confirmations(data: ProjectInput) -> Iterator[Check]:
-    """Yield what is required of dates, confirmations and peer review."""
+    """Yield the requirements on dates, confirmations and peer review."""
     yield from _dates(data)
     yield from _confirmation(data)
     yield from _peer_review(data)

@@ -1,4 +1,4 @@
-"""All that is required of a project, satisfied or not. Read `every`, then `before_runs`."""
+"""All requirements on a project, satisfied or not. Read `every`, then `before_runs`."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _OF_ANALYSIS = (MOTIONS_ID, "drift", "ground_motions", "peer_review", VELOCITY_R
 
 
 def every(done: Assessment) -> tuple[Check, ...]:
-    """Return everything that is required of an assessed project."""
+    """Return all requirements on an assessed project."""
     data, by_runs = done.project, {item.id for item in done.arrays if item.is_by_runs}
     routes = [item.limits for item in done.arrays]
     has_variations = done.at_reduced_friction is not None and done.has_motions
@@ -79,9 +79,9 @@ def before_runs(
     routes: Sequence[RouteLimits],
     by_runs: Collection[str],
 ) -> Iterator[Check]:
-    """Yield what is known of a project before any run; `routes` are those of its arrays.
+    """Yield the checks of a project that need no run; `routes` are those of its arrays.
 
-    `by_runs` are the arrays whose design displacement follows from their runs.
+    `by_runs` are the arrays whose design displacement is based on their runs.
     """
     ids = [array.id for array in data.arrays]
     analyzed = [id for id, item in zip(ids, routes, strict=True) if item.route is Route.ANALYSIS]
@@ -102,7 +102,7 @@ def before_runs(
 
 
 def noted(checks: Iterator[Check] | tuple[()], by_runs: Collection[str]) -> Iterator[Check]:
-    """Yield checks; what concerns the analysis alone is a note where nothing follows from it."""
+    """Yield checks; those on the analysis alone become notes if they have no consequence."""
     for check in checks:
         # The motions are those of the whole project: their limits count as soon as one array takes
         # its runs. A sliding velocity is that of one array.

@@ -33,7 +33,7 @@ _NOISE = 1e-9  # a width in other units is no more than itself
 
 
 def pathway_check(done: Assessment, gap: ClearanceCheck, pathway_m: float, index: int) -> Check:
-    """Return what is left of a fire pathway after the arrays beside it have slid into it."""
+    """Return the remaining width of a fire pathway after adjacent arrays have slid into it."""
     row, us_first = gap.clearance, done.project.us_first
     slides = slides_m(done.arrays, gap)
     left_m = row.provided_m - math.fsum(slides)
@@ -60,7 +60,7 @@ def pathway_check(done: Assessment, gap: ClearanceCheck, pathway_m: float, index
 
 
 def of_pathways(data: ProjectInput, pairs: Sequence[PlanNeighbor] = ()) -> Iterator[Check]:
-    """Yield for each array whether its clearances say if a fire pathway runs along them.
+    """Yield for each array whether its clearances state if a fire pathway runs along them.
 
     The pairs of the plan that lack a clearance do not say so, if they are given: those that are
     near, and those that face each other where a pathway may be left too narrow.

@@ -1,4 +1,4 @@
-"""Friction tests on file and at the velocities of sliding, and what less friction would change."""
+"""Friction tests on file and at the sliding velocities, and the effect of less friction."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def _runs(by_surface: Mapping[Surface, Series | None], us_first: bool) -> Iterat
 
 
 def of_velocities(data: ProjectInput, arrays: Sequence[ArrayAssessment]) -> Iterator[Check]:
-    """Yield for each array whether friction beyond the velocities tested is shown by tests."""
+    """Yield for each array whether tests support the friction above the tested velocities."""
     for item in arrays:
         yield _velocity(item.id, velocity_check(data, item), data.us_first)
 
@@ -184,7 +184,7 @@ def _compared(check: VelocityCheck, us_first: bool) -> Mapping[str, object]:
 
 
 def of_less(done: Assessment) -> Iterator[Check]:
-    """Yield the routes and clearances that are permitted as given, and not with less friction."""
+    """Yield the procedures and clearances satisfied as entered, but not with less friction."""
     reduced = done.at_reduced_friction
     if reduced is None:
         return

@@ -1,4 +1,4 @@
-"""The limits of the rule set on the building and on each array, and what requires less than it."""
+"""The limits of the rule set on the building and each array, and less stringent overrides."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def building_limits(data: ProjectInput, rules: RuleSet) -> tuple[Limit, ...]:
 
 
 def of_array(item: RouteLimits, index: int, id: str, *, has_motions: bool) -> Iterator[Check]:
-    """Yield the limits on an array; of the route that is not taken each is a note."""
+    """Yield the limits on an array; those of the procedure not used are notes."""
 
     def of(limit: Limit) -> Check:
         field = _FIELDS.get(limit.key, "")
@@ -107,7 +107,7 @@ _REMEDIES = {
 
 
 def of_overrides(data: ProjectInput) -> Iterator[Check]:
-    """Yield what requires less than the rule set: each override that does, and each departure."""
+    """Yield each override and departure that is less stringent than the rule set."""
     rules = RULE_SETS[data.site.rule_set]
     for index, row in enumerate(data.overrides):
         if row.provision in rules.values:

@@ -1,4 +1,4 @@
-"""What is required of the seismic parameters: rule set, edition, source, SDC, site class, 11.4.8.
+"""Requirements on the seismic parameters: rule set, edition, source, SDC, site class, 11.4.8.
 
 Each that is not satisfied is a condition, not NG; values below their table are errors
 (`report.project.check.site_faults`). Read `of_site`.
@@ -26,7 +26,7 @@ _FIELDS = {
 
 
 def of_site(data: ProjectInput) -> Iterator[Check]:
-    """Yield what is required of the seismic parameters of the site."""
+    """Yield the requirements on the seismic parameters of the site."""
     site = data.site
     yield from _code(data)
     yield _source(site)
@@ -39,7 +39,7 @@ _ATTACH = "attach the jurisdiction's letter of acceptance on the Site worksheet"
 
 
 def _code(data: ProjectInput) -> Iterator[Check]:
-    """Yield whether all is by the edition of ASCE 7 that the building code references."""
+    """Yield whether all values are from the edition of ASCE 7 referenced by the building code."""
     site, mark = data.site, "" if data.confirmed else "†"
     # By chapter 35 of the IBC and the CBC, the list of referenced standards.
     code, edition = site.code_text, REFERENCED.get(site.code_text)

@@ -1,7 +1,7 @@
-"""The one sentence that says a check, or several that ask the same, and its parts for tables.
+"""The sentence for a check, or for several identical ones, and its parts for tables.
 
 Electrical slack of A1 with D/C 1.02 and of A2 with D/C 1.09 are one check of A1 and A2 with D/C
-1.09; of clearances the worst pair is named, and how many more there are.
+1.09; for clearances, the worst pair is named with the number of others.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ PAIRS = ("clearance", "neighbors", "fire_pathway")
 
 
 def texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, str]:
-    """Return what is found and what is required with its sign, for two cells of a table.
+    """Return the value found and the value required with its sign, for two table cells.
 
     Numbers are rounded to the safe side, and so that their order shows. Where it is not both
     systems, they are in the preferred one alone.
@@ -35,13 +35,13 @@ def texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, s
 
 
 def found_and_limit(check: Check, us_first: bool) -> tuple[str, str]:
-    """Return the same in both systems, what is found with its note."""
+    """Return the same in both systems of units, the value found with its note."""
     found_text, limit = texts(check, us_first)
     return found_text + (f" ({check.note})" if check.note else ""), limit
 
 
 def sentence(check: Check, us_first: bool) -> str:
-    """Return a check in words: of what, what was found, what is required and by which clause."""
+    """Return a check as a sentence: subject, value found, value required and code section."""
     found_text, limit = _texts(check, us_first)
     heading = f"{check.title}, {check.subject}" if check.subject else check.title
     found_text += f" ({check.note})" if check.note else ""
@@ -75,7 +75,7 @@ def _texts(check: Check, us_first: bool, *, is_both: bool = True) -> tuple[str, 
 
 
 def words(check: Check, array: str = "") -> str:
-    """Return a check in a few words: `roof slope of A1 (D/C 1.29)`; or in the row of an array."""
+    """Return a check as a short name: `roof slope of A1 (D/C 1.29)`; or for the row of an array."""
     name = lowered(check.title)
     if check.subject not in ("", array):
         name += f" {check.subject}" if check.id in PAIRS else f" of {check.subject}"
@@ -89,7 +89,7 @@ def words(check: Check, array: str = "") -> str:
 
 
 def alike(checks: Iterable[Check]) -> Sequence[Check]:
-    """Return checks that ask the same of several subjects as one each, with what each has."""
+    """Return identical checks of several subjects combined into one, with the values of each."""
 
     def asked(check: Check) -> Hashable:
         # Of numbers the worst stands for all, whatever each is compared with.
@@ -143,7 +143,7 @@ def size(check: Check) -> tuple[float, float]:
 
 
 def _apart(group: Sequence[Check]) -> Amount:
-    """Return of amounts that nothing is compared with the one on the safe side."""
+    """Return the conservative value of quantities that are not compared with a limit."""
     amounts = [(check.found, check.subject) for check in group if isinstance(check.found, Amount)]
     is_capacity = amounts[0][0].rounding is Rounding.DOWN
     amount, subject = (min if is_capacity else max)(amounts, key=lambda pair: pair[0].value)
@@ -152,7 +152,7 @@ def _apart(group: Sequence[Check]) -> Amount:
 
 
 def _found(group: Sequence[Check]) -> str:
-    """Return in words what is found: what all share is said once."""
+    """Return the values found as text, with common parts stated once."""
     all_parts = [
         [*str(check.found).split("; "), *([check.note] if check.note else [])] for check in group
     ]
@@ -166,7 +166,7 @@ def _found(group: Sequence[Check]) -> str:
 
 
 def subjects(group: Sequence[Check]) -> str:
-    """Return what checks of one kind are of: `A1 to A3`, or the worst pair and how many more."""
+    """Return the subjects of similar checks: `A1 to A3`, or the worst pair and a count."""
     names = list(dict.fromkeys(check.subject for check in group))
     if group[0].id not in PAIRS or len(names) == 1:
         return ranged(names)

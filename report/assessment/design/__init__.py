@@ -1,1 +1,1 @@
-"""What a design value follows from: rule set, routes, arrays, separations, friction."""
+"""The basis of a design value: rule set, procedures, arrays, separations, friction."""

@@ -1,7 +1,7 @@
 """One array under all motions, checked against the rule set: its design displacement.
 
-Seven PRDs of 0.40 m in the mean give 1.1 x 0.40 = 0.44 m by PV1-2012. Beside a prescriptive value
-of 1.00 m the floor without peer review, half of it, governs: 0.50 m.
+Seven PRDs with a mean of 0.40 m give 1.1 x 0.40 = 0.44 m by PV1-2012. With a prescriptive value of
+1.00 m, the floor without peer review, half of it, governs: 0.50 m.
 
 The PRDs of its runs give a value from analysis by a statistic of the rule set. The design
 displacement is that value, or the floor where that is larger and no peer review removes it; by the
@@ -54,7 +54,7 @@ class DesignBasis(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Displacement:
-    """How far an array may slide, for what is near it."""
+    """Displacement of an array, for adjacent items."""
 
     design_m: float  # NaN where there is no value
     is_permitted: bool = True
@@ -67,7 +67,7 @@ class Displacement:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArrayMarks:
-    """The marks of the numbers of an array that an override or a departure changes."""
+    """Marks of the numbers of an array that are changed by an override or a departure."""
 
     prescriptive: str = ""
     analysis: str = ""
@@ -110,7 +110,7 @@ class ArrayAssessment:
 
     @property
     def route(self) -> Route:
-        """By which the design displacement is obtained."""
+        """Procedure by which the design displacement is obtained."""
         return self.limits.route
 
     @property
@@ -129,39 +129,39 @@ class ArrayAssessment:
 
     @property
     def source(self) -> str:
-        """Source of the design displacement in words; not permitted where neither route is."""
+        """Source of the design displacement as text; not permitted if neither procedure is."""
         mark = f", {NOT_PERMITTED}" if self.has_unpermitted_value else ""
         return f"{self.governs.value}{mark}"
 
     @property
     def satisfies_limits(self) -> bool:
-        """Whether it and its route are permitted: every limit that applies is satisfied."""
+        """Whether array and procedure are permitted: every applicable limit is satisfied."""
         return self.is_permitted and all(check.ok for check in self.limits.required)
 
     @property
     def is_by_runs(self) -> bool:
-        """Whether its design displacement follows from its runs; where there is none, too."""
+        """Whether its design displacement is based on its runs, even if there is none."""
         return self.route is Route.ANALYSIS or self.design_m != self.prescriptive.value_m
 
     @property
     def lacks_motions(self) -> bool:
-        """Whether it takes the value from analysis, and the motions are too few for one."""
+        """Whether it uses the analysis displacement, but the motions are too few for one."""
         return self.route is Route.ANALYSIS and self.analysis.basis is Basis.TOO_FEW
 
     @property
     def lacks_slack(self) -> bool:
-        """Whether the electrical slack that is given is less than the design displacement."""
+        """Whether the entered electrical slack is less than the design displacement."""
         slack_m = self.array.slack_m
         return slack_m is not None and slack_m < self.design_m
 
     @property
     def has_unpermitted_value(self) -> bool:
-        """Whether there is a design displacement, by a route that is not permitted."""
+        """Whether there is a design displacement, but by a procedure that is not permitted."""
         return not math.isnan(self.design_m) and not self.is_permitted
 
     @property
     def displacement(self) -> Displacement:
-        """How far it may slide."""
+        """Its displacement."""
         return Displacement(self.design_m, self.is_permitted)
 
     @property
@@ -170,7 +170,7 @@ class ArrayAssessment:
         return self.displacement.permitted_m
 
     def prescriptive_mark(self, refused: str = f", {NOT_PERMITTED}") -> str:
-        """Return the mark of the prescriptive displacement, of a route that is refused, too."""
+        """Return the mark of the prescriptive displacement, whether it is permitted or not."""
         is_permitted = all(check.ok for check in self.limits.prescriptive_checks)
         return self.overridden.prescriptive + refused * (not is_permitted)
 
@@ -190,13 +190,13 @@ class ArrayAssessment:
 
     @property
     def fastest_mps(self) -> float:
-        """Largest sliding velocity of all runs [m/s]; NaN where a run gives none, or none is."""
+        """Largest sliding velocity of all runs [m/s]; NaN if a run gives none or there is none."""
         speeds = (run.result.peak_speed_mps for run in self.runs)
         return max(speeds, key=nan_is_worst, default=math.nan)
 
     @property
     def residual_m(self) -> float:
-        """Largest distance from its place at the end of a run [m]; NaN where one has none."""
+        """Largest distance from its location at the end of a run [m]; NaN if a run gives none."""
         results = (run.result for run in self.runs)
         ends = (math.hypot(end.residual_m, end.residual_across_m) for end in results)
         return max(ends, key=nan_is_worst, default=math.nan)
@@ -269,7 +269,7 @@ def _design_m(
     prescriptive: Prescriptive,
     floor_m: float,
 ) -> float:
-    """Return the design displacement of a route [m]; NaN where a run has no final value."""
+    """Return the design displacement of a procedure [m]; NaN if a run has no final value."""
     largest_m = max((run.governing.prd_m for run in runs), key=nan_is_worst, default=0.0)
     if math.isnan(largest_m):
         return math.nan

@@ -1,7 +1,7 @@
 """Clearances of an array: the object across each gap, required and provided separation.
 
-An array that may slide 0.80 m stands 1.00 m from a fixed object. Where the rule set asks one such
-displacement there, 0.80 m are required: D/C 0.80, OK. Where the object is another array that slides
+An array that may slide 0.80 m stands 1.00 m from a fixed object. If the rule set requires one
+displacement there, 0.80 m is required: D/C 0.80, OK. If the object is another array that slides
 0.95 m, that displacement governs for both.
 
 Reads no code rule itself (`solver.rules.provisions`). Read `check_clearance`.
@@ -126,14 +126,14 @@ def check_clearance(
 
 
 def governing_array(displacements: Mapping[str, Displacement], between: Sequence[str]) -> str:
-    """Return the array between which and another that slides farther, or has no value."""
+    """Return the array of a pair that slides farther, or has no value."""
     # Either array may move toward the other: the larger displacement of both governs.
     arrays = [name for name in between if name in displacements]
     return max(arrays, key=lambda name: nan_is_worst(displacements[name].permitted_m))
 
 
 def slides_m(arrays: Sequence[ArrayAssessment], gap: ClearanceCheck) -> Sequence[float]:
-    """Return the displacements of the arrays beside a gap that narrow it at once [m]."""
+    """Return the displacements of the arrays that narrow a gap simultaneously [m]."""
     # Arrays that are alike slide the same way: the gap loses one displacement at most.
     if gap.neighbor is Neighbor.LIKE:
         return [gap.design_m]
@@ -144,7 +144,7 @@ def slides_m(arrays: Sequence[ArrayAssessment], gap: ClearanceCheck) -> Sequence
 def with_displacements(
     done: Assessment, changed: Mapping[str, Displacement], gap: ClearanceCheck
 ) -> ClearanceCheck:
-    """Return a clearance of a project where some arrays slide otherwise; its marks stay."""
+    """Return a clearance with other displacements of some arrays; its marks are kept."""
     slides = {**done.displacements, **changed}
     # Of the project as entered, whose friction says which arrays are alike: a trial with other
     # friction on one side must not make a like array unlike, with twice the factor.
@@ -155,7 +155,7 @@ def with_displacements(
 def marked_gap(
     check: ClearanceCheck, adopted: ClearanceCheck, arrays: Sequence[ArrayAssessment]
 ) -> ClearanceCheck:
-    """Return a clearance with the marks of what is another number under the rule set as adopted."""
+    """Return a clearance with marks on numbers that differ under the rule set as adopted."""
     opened = by_id(arrays, check.governing_array).overridden.opened
     return replace(
         check,

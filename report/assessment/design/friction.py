@@ -1,4 +1,4 @@
-"""The friction of arrays: in words, as it was run; and other than it is entered.
+"""The friction of arrays: as text, as run, and modified.
 
 With a low-velocity coefficient of 0.20, a law from 0.40 to 0.60 is one from 0.20 to 0.30.
 """
@@ -17,7 +17,7 @@ from solver.model import Friction
 
 
 def coefficient(mu: float) -> str:
-    """Return a friction coefficient with two decimals, or three where it has them."""
+    """Return a friction coefficient with two decimals, or three if it has them."""
     return number(mu, 2 if math.isclose(mu, round(mu, 2), abs_tol=1e-9) else 3)
 
 
@@ -31,7 +31,7 @@ def mu_words(law: Friction) -> str:
 
 
 def mus_words(arrays: Sequence[Array]) -> str:
-    """Return the friction of arrays, those of one friction together: `A1, A2: 0.50; A3: 0.45`."""
+    """Return the friction of arrays, grouped by equal friction: `A1, A2: 0.50; A3: 0.45`."""
     groups = ids_by(arrays, lambda array: mu_words(array.friction))
     return "; ".join(f"{ranged(ids)}: {words}" for words, ids in groups.items())
 

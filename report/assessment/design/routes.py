@@ -1,4 +1,4 @@
-"""The routes to a design displacement, and the limits on them, which follow from the input alone.
+"""The procedures for a design displacement and their limits, from the input alone.
 
 By PV1-2012 a roof of 3.5 deg is too steep for the prescriptive displacement (3 deg), and not for an
 analysis (7 deg).
@@ -27,7 +27,7 @@ MOTIONS_KEY = "analysis_min_motions"
 
 
 class Route(StrEnum):
-    """Route to the design displacement."""
+    """Procedure for the design displacement."""
 
     ANALYSIS = "analysis"
     PRESCRIPTIVE = "prescriptive"
@@ -35,7 +35,7 @@ class Route(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RouteLimits:
-    """The limits of an array, which follow from the input alone, and the route that they leave."""
+    """The limits of an array, from the input alone, and the procedure that they permit."""
 
     checks: tuple[Limit, ...]  # limits that apply to both routes
     # limits of each route
@@ -50,13 +50,13 @@ class RouteLimits:
 
     @property
     def of_route(self) -> tuple[Limit, ...]:
-        """The limits of the route taken alone."""
+        """The limits of the procedure used only."""
         is_analysis = self.route is Route.ANALYSIS
         return self.analysis_checks if is_analysis else self.prescriptive_checks
 
     @property
     def required(self) -> tuple[Limit, ...]:
-        """Every limit that must be satisfied on the route taken."""
+        """Every limit that must be satisfied for the procedure used."""
         return (*self.checks, *self.of_route)
 
 
@@ -74,7 +74,7 @@ def prescriptive_of(data: ProjectInput, rules: RuleSet) -> Prescriptive:
 def limits_of(
     data: ProjectInput, rules: RuleSet, array: Array, *, n_motions: int, has_value: bool
 ) -> RouteLimits:
-    """Return the limits of an array, whose motions give a value from analysis or not."""
+    """Return the limits of an array; its motions may or may not permit an analysis."""
     analysis = provisions.analysis_checks(
         rules,
         slope_rad=array.slope_rad,
@@ -111,7 +111,7 @@ def statistic_basis(data: ProjectInput) -> Basis | None:
 
 
 def lacking_motions(rules: RuleSet, basis: Basis | None, count: int) -> str:
-    """Return which statistic the motions are too few for; nothing where there are enough."""
+    """Return the statistic that needs more motions than there are; nothing if there are enough."""
     asked = Basis.LARGEST_FACTORED if basis is None else basis
     minimum = provisions.minimum_motions(rules, asked)
     if count >= minimum:

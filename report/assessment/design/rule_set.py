@@ -59,11 +59,11 @@ def under_code(data: ProjectInput) -> ProjectInput:
 
 
 def mark_of(value: float, adopted: float) -> str:
-    """Return the mark of a number that is another under the rule set as adopted; none for NaN."""
+    """Return the mark of a number that differs under the rule set as adopted; none for NaN."""
     return "" if math.isnan(value) or value == adopted else OVERRIDDEN
 
 
 def takes_plain_mean(data: ProjectInput) -> bool:
-    """Whether the workbook requests a mean without factor where the rule set has one."""
+    """Whether the workbook requests a mean without a factor although the rule set has one."""
     is_stated = RULE_SETS[data.site.rule_set].statistic_is_stated
     return is_stated and data.options.statistic.value == Basis.MEAN.value

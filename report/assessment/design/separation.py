@@ -1,7 +1,7 @@
-"""The separation that a rule set requires beside an array, and a gap that is compared with it.
+"""The separation required by a rule set next to an array, and a gap compared with it.
 
-By PV1-2012 a slide of 0.50 m with I = 1 asks for 0.25 m to an array that slides alike, 0.50 m to an
-object or another array, and 0.75 m to an edge without a parapet.
+By PV1-2012, a displacement of 0.50 m with I = 1 requires 0.25 m to an array of similar
+construction, 0.50 m to an object or another array, and 0.75 m to an edge without a parapet.
 
 A factor times the design displacement, times an importance factor where that is not in the
 displacement: I_e at roof edges, elsewhere the larger I_p of the array and what is across the gap.
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class ComparedGap(ABC):
-    """A gap whose required separation is compared with what is there, given or in plan."""
+    """A gap whose required separation is compared with the entered or drawn one."""
 
     __slots__ = ()
     required_m: float  # required separation [m]; NaN without a permitted displacement
@@ -59,7 +59,7 @@ class ComparedGap(ABC):
 
     @property
     def shows(self) -> tuple[Show, Show]:
-        """How what is there and what is required are shown beside each other."""
+        """Format of the provided and the required separation, side by side."""
         return shown_in_order(capacity(self.provided_m), demand(self.required_m))
 
     def involves(self, array_id: str) -> bool:

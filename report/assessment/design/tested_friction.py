@@ -1,4 +1,4 @@
-"""The runs of friction tests, and the friction of arrays held against them, in words.
+"""The runs of friction tests, and the friction of arrays compared with them, as text.
 
 Three wet runs of 0.45 in the mean and three dry ones of 0.60: the wet ones govern, and the friction
 of an array is held against 0.45.
@@ -56,7 +56,7 @@ def is_complete(data: ProjectInput, report: str) -> bool:
 
 
 def basis_words(data: ProjectInput, array: Array) -> str:
-    """Return where the friction of an array comes from: the fit of test runs, or entered."""
+    """Return the source of the friction of an array: the fit of test runs, or entered."""
     all_series = tested(data)
     if not all_series:
         return "entered; no friction test runs are entered"
@@ -85,7 +85,7 @@ def _is_fit(law: Friction, tests: Series) -> bool:
 
 
 def _how_far(law: Friction, tests: Series) -> str:
-    """Return how entered friction compares with the runs at each velocity, or on average."""
+    """Return the comparison of entered friction with the runs at each velocity, or on average."""
     # What is above the tests on average is refused by the checks of the sheet.
     if all(repeat.mean_of(law) <= repeat.mean + _NOISE for repeat in tests.repeats):
         return "at or below"
@@ -103,7 +103,7 @@ def _where(tests: Series, us_first: bool) -> str:
 
 
 def runs_by_velocity(series: Series, us_first: bool) -> str:
-    """Return in words how many runs there are at each velocity."""
+    """Return the number of runs at each velocity as text."""
     counts = grouped_by(
         series.repeats, lambda repeat: (len(repeat.runs), math.isnan(repeat.velocity_mps))
     )
@@ -126,7 +126,7 @@ def _velocities(values_mps: Sequence[float], us_first: bool) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VelocityCheck:
-    """The friction of an array beyond the velocities tested."""
+    """The friction of an array above the tested velocities."""
 
     friction: Friction
     # largest sliding velocity of all runs of the array [m/s]; NaN where a run gives none
@@ -168,7 +168,7 @@ class VelocityCheck:
 
     @property
     def is_satisfied(self) -> bool:
-        """Whether friction beyond the tests is at most the smallest tested, within rounding.
+        """Whether friction above the tested range is at most the smallest tested, within rounding.
 
         The tests must be complete and not far from it: fewer runs are never better.
         """
@@ -187,7 +187,7 @@ class VelocityCheck:
 
 
 def velocity_check(data: ProjectInput, assessed: ArrayAssessment) -> VelocityCheck:
-    """Return the friction of an array beyond the velocities tested."""
+    """Return the friction of an array above the tested velocities."""
     all_series = tested(data)
     tests = governing(all_series, assessed.array.mu_report) if all_series else None
     return VelocityCheck(

@@ -1,4 +1,4 @@
-"""Verdicts from the mildest to the most severe, and words that several checks have in common."""
+"""Verdicts from the mildest to the most severe, and texts common to several checks."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from solver.rules.limit import Consequence
 class Verdict(StrEnum):
     """Verdict on a project, an array or a clearance.
 
-    NONE is of a clearance beside an array without a permitted route, whose own verdict is NG. NOTE
-    is of a requirement on what no design displacement follows from. CONDITIONS is of a project,
-    CONDITION of anything in it.
+    NONE applies to a clearance of an array without a permitted procedure, whose own verdict is NG.
+    NOTE applies to a requirement that affects no design displacement. CONDITIONS applies to a
+    project, CONDITION to anything in it.
     """
 
     # From the mildest to the most severe: `worst` takes them in this order.

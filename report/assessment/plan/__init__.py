@@ -1,1 +1,1 @@
-"""What the roof plan shows: neighbors, bare edges, clearances that are missing."""
+"""Evaluation of the roof plan: adjacent items, bare edges, missing clearances."""

@@ -1,4 +1,4 @@
-"""The rows of clearances that a plan calls for and a workbook lacks.
+"""The rows of clearances that a plan requires and a workbook lacks.
 
 Writes nothing (`report.project.write.filled`). Read `missing_rows`.
 """
@@ -42,7 +42,7 @@ _KEY = "clearances"  # the table that rows are added to
 def missing_rows(
     sheet: Sheet, arrays: Sequence[ArrayAssessment] = ()
 ) -> tuple[dict[CellPosition, Value], tuple[str, ...]]:
-    """Return the cells of a row for each pair that a package would name as missing, and lines.
+    """Return the cells of a row for each pair that a package would list as missing, and lines.
 
     Rows whose distance is from the drawing are renewed. A line for each row that is new, renewed or
     differs from the plan, and for each pair that still lacks one; at last their counts. `arrays`

@@ -1,4 +1,4 @@
-"""What the plan shows near each array, and whether the workbook gives a clearance to it.
+"""Items on the plan near each array, and whether the workbook lists a clearance to them.
 
     +----+          +-------+
     | A1 |<-- gap ->| RTU-1 |    near: gap <= reach, twice the larger design displacement
@@ -46,7 +46,7 @@ _WAYS = (Direction.DOWN, Direction.ACROSS, Direction.UP, Direction.ACROSS)  # by
 
 
 class NearbyKind(StrEnum):
-    """What lies near an array."""
+    """Type of item near an array."""
 
     ARRAY = "array"
     OBJECT = "object"
@@ -54,7 +54,7 @@ class NearbyKind(StrEnum):
 
 
 class Cover(StrEnum):
-    """How the clearances of the workbook cover a pair of the plan."""
+    """Coverage of a pair on the plan by the clearances of the workbook."""
 
     AS_IN_PLAN = "agrees with the plan"
     DIFFERS = "differs from the plan"
@@ -67,7 +67,7 @@ class Cover(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GivenGap:
-    """A clearance of the workbook between an array and its neighbor, with the cell of its value."""
+    """An entered clearance between an array and an adjacent item, with the cell of its value."""
 
     number: int  # of its row, from 1
     clearance: Clearance
@@ -77,7 +77,7 @@ class GivenGap:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanNeighbor(ComparedGap):
-    """An array, an object or a roof edge near an array, or to which a clearance is given."""
+    """An array, an object or a roof edge that is near an array or has a clearance entered."""
 
     # ids, in the order of the workbook between arrays; `other` names a bare edge in words
     array: str
@@ -99,7 +99,7 @@ class PlanNeighbor(ComparedGap):
 
     @property
     def names(self) -> str:
-        """The two in words."""
+        """The names of both."""
         return f"{self.array} to {self.other}"
 
     @property
@@ -119,12 +119,12 @@ class PlanNeighbor(ComparedGap):
 
     @property
     def is_near(self) -> bool:
-        """Whether it is within reach, or nearer than is required."""
+        """Whether it is within reach, or closer than required."""
         return self.gap_m <= self.reach_m or self.gap_m < self.required_m
 
     @property
     def is_listed(self) -> bool:
-        """Whether it is near, or a clearance is given."""
+        """Whether it is near, or a clearance is entered."""
         return bool(self.given) or self.is_near
 
     @property
@@ -146,7 +146,7 @@ class PlanNeighbor(ComparedGap):
 
     @property
     def is_missing(self) -> bool:
-        """Whether it is near and no clearance is given."""
+        """Whether it is near and no clearance is entered."""
         return not self.given and self.is_near
 
     @property
@@ -156,7 +156,7 @@ class PlanNeighbor(ComparedGap):
 
     @property
     def is_short(self) -> bool:
-        """Whether no clearance is given and the gap of the plan is not known to be sufficient."""
+        """Whether no clearance is entered and the gap on the plan is not known to be sufficient."""
         # Where the required separation is NaN, the gap is not known to be sufficient.
         return self.is_missing and not self.gap_m >= self.required_m
 
@@ -168,7 +168,7 @@ class PlanNeighbor(ComparedGap):
         )
 
     def shortcomings(self) -> tuple[tuple[str, str], ...]:
-        """Return each cell where it is missing or contradicts the plan, with what is to be done."""
+        """Return each cell where it is missing or contradicts the plan, with the action to take."""
         if self.is_missing:
             remedy = (
                 "add the edge as an object, and a clearance to it"
@@ -267,7 +267,7 @@ def _rows(
 
 
 def direction_of(near: PlanNeighbor, downslope_deg: float) -> Direction:
-    """Return the direction in which the whole distance of a pair lies, from its array; else any."""
+    """Return the direction of the whole distance of a pair, from its array; else any."""
     # No displacement whose component in that direction is less than the distance closes the gap.
     for turns, direction in enumerate(_WAYS):
         angle = math.radians(downslope_deg + 90.0 * turns)
@@ -283,7 +283,7 @@ def direction_of(near: PlanNeighbor, downslope_deg: float) -> Direction:
 def pairs_before_runs(
     data: ProjectInput, addresses: Mapping[Place, str], arrays: Sequence[ArrayAssessment] = ()
 ) -> tuple[PlanNeighbor, ...]:
-    """Return the pairs of the plan as a package has them at the prescriptive displacement."""
+    """Return the pairs on the plan as in a package with the prescriptive displacement."""
     # Of arrays that have been run, larger design displacements count.
     rules, least_m = rule_set_of(data), design_before_runs_m(data)
     slides = {array.id: least_m for array in data.arrays} | larger_m(arrays, least_m)
@@ -300,7 +300,7 @@ def pairs_before_runs(
 
 
 def design_before_runs_m(data: ProjectInput) -> float:
-    """Return the design displacement that is taken before any run [m]: the prescriptive one."""
+    """Return the design displacement used before any run [m]: the prescriptive one."""
     # No floor on the displacement from analysis exceeds it, overridden or not.
     return prescriptive_of(data, rule_set_of(data)).value_m
 

@@ -1,1 +1,1 @@
-"""What would satisfy a project that is NG."""
+"""Changes that would satisfy a project that is NG."""

@@ -1,4 +1,4 @@
-"""The friction that an array needs, or may lose: each value is a changed project, assessed.
+"""Search for the lowest adequate friction of an array; each value is an assessed project.
 
 Read `Trials`, then `search`.
 """
@@ -35,7 +35,7 @@ def below(value: float) -> int:
 def search(satisfies: Callable[[int], bool], start: int, end: int) -> tuple[int, ...]:
     """Walk from one value toward another, and return those before the first failure, in order.
 
-    Each pass goes on from the last value of the one before, in smaller steps: where 43 and more
+    Each pass continues from the last value of the previous one, in smaller steps: where 43 and more
     satisfy, a walk from 60 toward 40 returns 60, 55, 50, 45, 44, 43. No value tried between the
     start and the last one returned fails. Empty if the start fails.
     """
@@ -77,7 +77,7 @@ class Trials:
         return check_alone(self.assessment, trial.id, trial.displacement, row).required_m
 
     def failure(self, row: Clearance | None, *, mu: int, every: bool = True) -> str:
-        """Return what does not satisfy with all runs, or with the governing ones; else nothing."""
+        """Return the item that fails with all runs, or with the governing ones; else nothing."""
         trial = self._tried(mu, every=every)
         if not is_final(trial):
             return "no final value"
@@ -115,7 +115,7 @@ def is_final(array: ArrayAssessment) -> bool:
 def check_alone(
     done: Assessment, name: str, displacement: Displacement, row: Clearance
 ) -> ClearanceCheck:
-    """Return a clearance with one array that slides as given, and all others at rest."""
+    """Return a clearance with one array sliding as specified and all others at rest."""
     slides = {
         item.id: displacement if item.id == name else replace(item.displacement, design_m=0.0)
         for item in involved(done, row)

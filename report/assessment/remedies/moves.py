@@ -1,7 +1,7 @@
-"""Moves of an array along an axis of the plan that widen a gap; without a place, the gap alone.
+"""Moves of an array along an axis of the plan that widen a gap, or the gap alone.
 
-A clearance that lacks 0.53 m: move the array 0.53 m away along one axis of the plan, where the plan
-has room, or provide 0.53 m more where it has no location on the plan.
+If a clearance lacks 0.53 m, move the array 0.53 m away along one axis of the plan, if there is
+room, or provide 0.53 m more if it has no location on the plan.
 
 Assesses nothing: `report.assessment.remedies.remedy` does. Read `moves`.
 """
@@ -31,7 +31,7 @@ Change = Callable[[ProjectInput], ProjectInput]
 
 
 def moves(assessment: Assessment, gap: ComparedGap, lack_m: float) -> Iterator[tuple[str, Change]]:
-    """Yield how a gap is widened by what lacks [m], in words and as a change; shortest first."""
+    """Yield ways to widen a gap by the deficit [m], as text and as a change; shortest first."""
     data = assessment.project
     unit = Quantity.SIZE.us if data.us_first else Quantity.SIZE.si
     lack_m = round_up(lack_m / unit.si, unit.decimals) * unit.si
@@ -56,7 +56,7 @@ def moves(assessment: Assessment, gap: ComparedGap, lack_m: float) -> Iterator[t
 
 
 def _toward(dx: float, dy: float, north_deg: float) -> str:
-    """Return a direction along an axis of the plan in words, by the compass where north is up."""
+    """Return a direction along an axis of the plan as text, by the compass if north is up."""
     if north_deg == _NORTH_UP_DEG:
         return compass(math.degrees(math.atan2(dy, dx)), north_deg)
     axis, along = ("x", dx) if dx else ("y", dy)
@@ -76,7 +76,7 @@ def _has_room(assessment: Assessment, name: str, moved: Shape) -> bool:
 def _ways(
     shapes: Mapping[str, Shape], between: tuple[str, str], lack_m: float
 ) -> Iterator[tuple[float, str, Point]]:
-    """Yield the length of each move along an axis of the plan that gives what lacks [m]."""
+    """Yield the length of each move along an axis of the plan that provides the deficit [m]."""
     for moving, fixed in (between, between[::-1]):
         for way in ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)):
             length_m = _length_m(shapes[moving], shapes[fixed], way, lack_m)
@@ -85,7 +85,7 @@ def _ways(
 
 
 def _length_m(near: Shape, far: Shape, way: Point, lack_m: float) -> float:
-    """Return how far a shape is to move for so much more distance [m]; NaN if it comes nearer."""
+    """Return the move of a shape for a given increase of distance [m]; NaN if it comes closer."""
     wanted_m, length_m = gap_m(near, far) + lack_m, lack_m
     # Across a corner the distance grows by less than the move.
     for _ in range(_MOST_TRIES):
@@ -117,7 +117,7 @@ def _widened(data: ProjectInput, *, number: int, by_m: float) -> ProjectInput:
 
 
 def _moved(data: ProjectInput, *, name: str, by: Point) -> ProjectInput:
-    """Return an input with an array moved, and its clearances as the plan then shows them."""
+    """Return an input with an array moved and its clearances updated from the plan."""
     shapes = data.shapes
     before, after = shapes[name], shifted(shapes[name], by)
 

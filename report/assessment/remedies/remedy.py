@@ -1,9 +1,9 @@
-"""What would satisfy each check that is NG, and the smallest set of changes that is enough.
+"""Changes that would satisfy each NG check, and the smallest sufficient set.
 
-One clearance lacks 0.2 m, and A2 slack: 0.2 m more, or μ = 0.55, for the first, and slack for the
-second, each with the verdict of the project then; both together are the set.
+If one clearance lacks 0.2 m and A2 lacks slack: 0.2 m more, or μ = 0.55, for the first, and slack
+for the second, each with the resulting project verdict; both together are the set.
 
-Each change is entered and assessed (`report.assessment.assess`) before it is named; friction is
+Each change is entered and assessed (`report.assessment.assess`) before it is listed; friction is
 searched with the runs of `report.assessment.remedies.friction_search`. Read `remedies`.
 """
 
@@ -70,7 +70,7 @@ class RemedyKind(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Remedy:
-    """A change that satisfies checks which are NG, and makes nothing else NG."""
+    """A change that satisfies NG checks and makes no other check NG."""
 
     kind: RemedyKind
     checks: tuple[Check, ...]
@@ -85,14 +85,14 @@ class Remedy:
 
     @property
     def sentence(self) -> str:
-        """The change, and what the project comes to where that is enough."""
+        """The change, and the project verdict if it is sufficient."""
         came = f" {_came(self.done)}" if self.done and self.is_enough else ""
         return f"{self.words}.{came}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Remedies:
-    """What would satisfy a project that is NG; empty for another one."""
+    """Changes that would satisfy an NG project; empty if it is not NG."""
 
     own: tuple[Remedy, ...] = ()  # of each check, each by itself
     # the changes that are enough together, none of which may be left out; empty if none are
@@ -101,7 +101,7 @@ class Remedies:
 
     @property
     def sentence(self) -> str:
-        """The changes that are enough together, and what comes of them; empty if none."""
+        """The changes that are sufficient together, and the result; empty if none."""
         if self.done is None:
             return ""
         changes = joined([lowered(remedy.words) for remedy in self.together])
@@ -113,9 +113,9 @@ def _came(done: Assessment) -> str:
 
 
 def remedies(assessment: Assessment, *, may_run: bool = True) -> Remedies:
-    """Return the remedies of each check that is NG, and the smallest set that is enough.
+    """Return the remedies of each NG check, and the smallest sufficient set.
 
-    Friction takes runs: without them it is no remedy.
+    Friction requires runs; without them it is not a remedy.
     """
     if assessment.verdict.is_permitted:
         return Remedies()
@@ -125,7 +125,7 @@ def remedies(assessment: Assessment, *, may_run: bool = True) -> Remedies:
 
 
 def _enough(state: _State, remedies: Iterable[Remedy]) -> Remedies:
-    """Return a change that is enough by itself, or else those that are found in turn."""
+    """Return a change that is sufficient alone, or else those found in turn."""
     if any(check.id in _OF_THE_BUILDING for check in state.failed):
         return Remedies()
     alone = next((remedy for remedy in remedies if remedy.is_enough), None)
@@ -154,7 +154,7 @@ def _enough(state: _State, remedies: Iterable[Remedy]) -> Remedies:
 
 
 class _State:
-    """A project, as given or with changes, and what would satisfy what is NG in it."""
+    """A project, as entered or with changes, and the remedies of its NG checks."""
 
     def __init__(self, done: Assessment, may_run: bool) -> None:
         self.done = done
@@ -194,7 +194,7 @@ class _State:
 
     @cached_property
     def trials(self) -> Mapping[str, Trials]:
-        """The arrays with other friction; none where none may be run."""
+        """The arrays with other friction; none if none may be run."""
         return trials_of(self.done) if self._may_run else {}
 
     @cached_property
@@ -208,7 +208,7 @@ def _key(check: Check) -> Hashable:
 
 
 def _separations(state: _State, check: Check) -> Iterator[Remedy]:
-    """Yield what widens a clearance, a pair of the plan without one, or a fire pathway."""
+    """Yield changes that widen a clearance, a pair on the plan without one, or a fire pathway."""
     gap = _gap(state.done, check)
     if gap and isinstance(check.found, Amount) and isinstance(check.limit, Amount):
         for words, change in moves(state.done, gap, check.limit.value - check.found.value):
@@ -217,7 +217,7 @@ def _separations(state: _State, check: Check) -> Iterator[Remedy]:
 
 
 def _gap(done: Assessment, check: Check) -> ComparedGap | None:
-    """Return the gap that a check is of."""
+    """Return the gap of a check."""
     rows = [place.row for place in check.places if place.section == "clearances"]
     if rows:
         return done.clearances[rows[0]]
@@ -237,7 +237,7 @@ def _reviewed(data: ProjectInput) -> ProjectInput:
 
 
 def _review(state: _State, check: Check) -> Iterator[Remedy]:
-    """Yield peer review, where with it arrays of a check that it satisfies slide less far."""
+    """Yield peer review, if it satisfies a check because its arrays then slide less."""
     done = state.reviewed
     if done is None:
         return
@@ -295,7 +295,7 @@ def _friction(state: _State, check: Check, mus: Mapping[str, float]) -> Remedy:
 
 
 def _least_mu(trials: Trials, row: Clearance | None) -> float:
-    """Return the least friction coefficient with which an array satisfies; NaN for none."""
+    """Return the lowest friction coefficient that satisfies the check of an array; NaN if none."""
     end, limit = above(trials.array.array.mu), _most_mu(trials)
     if end > limit or not _may_help(trials, row):
         return math.nan
@@ -316,7 +316,7 @@ def _most_mu(trials: Trials) -> int:
 
 
 def _may_help(trials: Trials, row: Clearance | None) -> bool:
-    """Whether an array that does not slide would satisfy: found without a run."""
+    """Whether an array that does not slide would satisfy the check; needs no run."""
     assessment, array = trials.assessment, trials.array
     if array.lacks_motions:
         return False
@@ -347,7 +347,7 @@ def _needed(check: Check, entered: float) -> Amount:
 
 
 def _values(state: _State, check: Check) -> Iterator[Remedy]:
-    """Yield the values that satisfy a check of one array and the like of others."""
+    """Yield the values that satisfy a check of one array and similar checks of others."""
     kind, field = _VALUES[check.id]
     is_least = kind is not RemedyKind.HEIGHT
     checks = tuple(item for item in state.failed if item.id == check.id)

@@ -1,1 +1,1 @@
-"""Supporting results that the package prints beside an assessment."""
+"""Supporting results that the package prints with an assessment."""

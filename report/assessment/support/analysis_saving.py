@@ -1,7 +1,6 @@
-"""What an analysis could save, of a project without motions that permit one.
-
-Beside a prescriptive displacement of 1.00 m the floor of PV1-2012 is 0.50 m: a clearance of 0.60 m
-to a fixed object that is NG now would be enough.
+"""Possible savings by an analysis, for a project whose motions do not permit one. With a
+prescriptive displacement of 1.00 m the floor of PV1-2012 is 0.50 m: a clearance of 0.60 m to a
+fixed object that is NG now would be enough.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from solver.rules.provisions import analysis_floor_m, review_lifts_slope
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Saving:
-    """The least design displacement that an analysis may give, and what it would satisfy."""
+    """The smallest design displacement possible with an analysis, and what it would satisfy."""
 
     lacks: Sequence[str]  # limits that the motions miss, in words; none without motions
     ids: Sequence[str]  # arrays that may be analyzed, and are not
@@ -31,7 +30,7 @@ class Saving:
 
 
 def saving(assessment: Assessment) -> Saving:
-    """Return what an analysis could save, of a project without motions that permit one."""
+    """Return the possible savings by an analysis, for a project whose motions do not permit one."""
     first = assessment.arrays[0]  # the prescriptive displacement is the same for every array
     floor_m = analysis_floor_m(assessment.rules, first.prescriptive)
     without = [item for item in assessment.arrays if item.route is Route.PRESCRIPTIVE]

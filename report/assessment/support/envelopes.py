@@ -1,6 +1,7 @@
-"""Where an array may come to lie in plan: by its design displacement, and in its runs.
+"""Envelopes of an array in plan: of its design displacement, and of its runs.
 
-A rectangle of 10 by 5 m that may slide 0.5 m any way needs 11 by 6 m, rounded at the corners.
+A rectangle of 10 by 5 m that may slide 0.5 m in any direction needs 11 by 6 m, with rounded
+corners.
 
 Geometry only; checks nothing. Points are in plan [m], counterclockwise.
 """

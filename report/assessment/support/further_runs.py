@@ -1,7 +1,7 @@
-"""Runs beside those of the design: without high-pass, of smaller events, above other buildings.
+"""Additional runs: without high-pass filter, smaller events, other building properties.
 
-A PRD of 0.42 m with the high-pass and 0.50 m without: the filter removes 16%. After the design
-event with 0.40 m, a smaller one with 0.10 m makes 0.50 m in all.
+A PRD of 0.42 m with the high-pass and 0.50 m without: the filter removes 16%. A design event with
+0.40 m and a smaller one with 0.10 m add up to 0.50 m.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ class Cumulative:
 
 
 def cumulative(assessment: Assessment) -> tuple[Cumulative, ...]:
-    """Return the sums of every array; none without motions, or where no smaller event is named."""
+    """Return the sums of every array; none without motions or smaller events."""
     factors = assessment.project.options.smaller_factors
     if not (factors and assessment.has_motions):
         return ()

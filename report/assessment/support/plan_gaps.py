@@ -1,4 +1,4 @@
-"""What the plan draws between shapes: clearances, and the distance to keep clear of an array."""
+"""Distances drawn on the plan: clearances, and the keep-clear distance of each array."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class PlanGap:
 
     @property
     def is_given(self) -> bool:
-        """Whether the workbook has the clearance."""
+        """Whether the workbook lists the clearance."""
         return self.number > 0
 
     @property

@@ -1,4 +1,4 @@
-"""Response spectra of the motions as run, with their target, and where their mean misses it.
+"""Response spectra of the motions as run, their target, and deviations of the mean from it.
 
 A mean of 0.98 of the target at 2 s falls short of it; one of 1.40 times the target exceeds it.
 
@@ -115,7 +115,7 @@ LEAST_MEAN = 0.995
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Departure:
-    """The mean of the motions below its target, or far above it."""
+    """The mean of the motions where it is below its target, or far above it."""
 
     titles: tuple[str, ...]  # components that depart, the farthest first
     target: str
@@ -128,7 +128,7 @@ class Departure:
 
 
 def departures(spectra: Sequence[Spectra]) -> tuple[Departure, ...]:
-    """Return where the mean of the motions misses its target, from 0.1 to 33.3 Hz, by target."""
+    """Return deviations of the mean of the motions from its target, 0.1 to 33.3 Hz, by target."""
     targets = grouped_by(spectra, lambda part: (part.is_ground, part.target.name))
     missed = []
     for parts in targets.values():

@@ -1,4 +1,4 @@
-"""What is not known exactly: friction, directions of shaking that are not run, the vertical's sign.
+"""Effect of uncertain inputs: friction, orientation of shaking, sign of the vertical component.
 
 How far may friction fall before a clearance is not satisfied? From 0.50 on, 0.45, 0.40 … are tried
 in the governing orientations until it fails, then hundredths; the last value that all runs confirm
@@ -102,7 +102,7 @@ ANGLES_DEG = tuple(k * 22.5 for k in range(16) if k % 4)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RotatedRun:
-    """The governing motion with its horizontal pair turned in plan, from the record's own axes."""
+    """The governing motion with its horizontal pair rotated in plan from the record axes."""
 
     angle_deg: float
     result: SlideResult
@@ -126,12 +126,12 @@ class Uncertainty:
 
     @property
     def worst(self) -> RotatedRun:
-        """The turned run with the largest PRD; there must be one."""
+        """The rotated run with the largest PRD; at least one must exist."""
         return max(self.turned, key=lambda run: nan_is_worst(run.result.prd_m))
 
 
 def uncertainty(assessment: Assessment) -> Uncertainty | None:
-    """Return how the governing array and every clearance react to what is not known exactly."""
+    """Return the sensitivity of the governing array and every clearance to uncertain inputs."""
     if not assessment.has_motions:
         return None
     governing = assessment.governing
