@@ -1,4 +1,4 @@
-"""Serves the page in the browser, for one engineer; `report.web` answers. Read `serve_page`."""
+"""Serves the browser page for one engineer; `report.web` handles requests. Read `serve_page`."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ def draw_numbers(plan: PlanSheet) -> Sequence[Lane]:
 
 
 def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
-    """Write what is provided, once for all equal gaps; where they differ in kind, for which."""
+    """Write the provided clearance, once for all equal gaps; if types differ, for which."""
     for provided, equal in grouped_by(lanes, lambda lane: _provided(plan, lane.gap)).items():
         # `typ.` on a drawing means that the others are the same: of another factor they are not,
         # though they measure the same.
@@ -81,7 +81,7 @@ def draw_dimensions(plan: PlanSheet, lanes: Sequence[Lane]) -> None:
 
 
 def _kind(plan: PlanSheet, gap: Gap) -> Neighbor | None:
-    """Return what is across a clearance; None of a gap without one."""
+    """Return the item across a clearance; None for a gap without one."""
     plan_gap = gap.of
     return plan.assessment.clearances[plan_gap.number - 1].neighbor if plan_gap.is_given else None
 
@@ -149,7 +149,7 @@ def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
 
 
 def _slid(placer: Placer, lane: Lane, long: float, tall: float) -> float | None:
-    """Reserve the first free place of a number on its lane; return how far it slid, if any is."""
+    """Reserve the first free position of a number on its lane; return its offset, if any."""
     shifts = list(_steps(0.0, lane.half))
     # With its dimension line, or else where labels leave no place for that, without.
     for across in (max(tall, lane.narrow), tall):
@@ -161,7 +161,7 @@ def _slid(placer: Placer, lane: Lane, long: float, tall: float) -> float | None:
 
 
 def gap_texts(gap: PlanGap, fmt: UnitFormat) -> tuple[str, str]:
-    """Return what is provided and what is required, in the preferred unit."""
+    """Return the provided and the required separation, in the preferred unit."""
     shows = shown_in_order(capacity(gap.provided_m), demand(gap.required_m))
     values = gap.provided_m, gap.required_m
     provided, required = (fmt.short(v, show=show) for v, show in zip(values, shows, strict=True))
@@ -179,7 +179,7 @@ def _provided(plan: PlanSheet, gap: Gap) -> str:
 
 
 def _dimension(plan: PlanSheet, words: str, equal: Sequence[Lane]) -> None:
-    """Write what is provided in one of the gaps that are equal, beside its number."""
+    """Write the provided clearance in one of several equal gaps, next to its number."""
     long = width_in(words) + 0.06
     tall = LINE_IN - 0.02
     # Between the facing sides first, then beyond their ends.
@@ -202,7 +202,7 @@ def _dimension(plan: PlanSheet, words: str, equal: Sequence[Lane]) -> None:
 
 
 def alongside(lane: Lane, long: float, overhang: float) -> Iterator[float]:
-    """Yield distances along a lane on both sides of its number for what is so long."""
+    """Yield distances along a lane on both sides of its number for a text of this length."""
     (x, y), number = lane.gap.middle, lane.number
     shift = (number.middle[0] - x) * lane.along[0] + (number.middle[1] - y) * lane.along[1]
     apart = ((number.tall if lane.is_upright else number.wide) + long) / 2 + 0.02

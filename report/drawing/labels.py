@@ -47,7 +47,7 @@ def label_edges(plan: PlanSheet, extent: Rectangle) -> None:
 
 
 def along_strip(frame: Frame, middle: Point, wide: float) -> tuple[Frame, bool]:
-    """Return the frame of words beside a strip, away from a point, and if they read from below."""
+    """Return the frame of text next to a strip, away from a point; whether it reads from below."""
     (x, y), aside = frame.middle, 0.05 + LINE_IN / 2
     if frame.tall > frame.wide:
         x = frame.x1 + aside if x > middle[0] else frame.x0 - aside
@@ -57,7 +57,7 @@ def along_strip(frame: Frame, middle: Point, wide: float) -> tuple[Frame, bool]:
 
 
 def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
-    """Keep room for the name of an array, if possible for its label; None where that is written."""
+    """Reserve room for the name of an array, if possible for its label; None if that is written."""
     # On a screen it comes before the clearances.
     if plan.size.is_screen and _label_in_middle(plan, array):
         return None
@@ -72,7 +72,7 @@ def reserve_name(plan: PlanSheet, array: ArrayAssessment) -> Frame | None:
 
 
 def _label_in_middle(plan: PlanSheet, array: ArrayAssessment) -> bool:
-    """Write as much of a label as has room in the middle of its array; return whether any has."""
+    """Write as much of a label as fits in the middle of its array; return whether any fits."""
     frame = plan.room(array.id)
     for lines, arrow in product(_array_labels(plan, array), (SCREEN_ARROW_IN, 0.0)):
         wide, tall = text_size(lines, first_bold=True)
@@ -87,7 +87,7 @@ def _label_in_middle(plan: PlanSheet, array: ArrayAssessment) -> bool:
 
 
 def label_array(plan: PlanSheet, array: ArrayAssessment, name: Frame) -> None:
-    """Label an array inside of it with as many lines as there is room for, or outside."""
+    """Label an array inside its outline with as many lines as fit, or outside."""
     frame, labels = plan.room(array.id), list(_array_labels(plan, array))
     places = [*product(labels, ((ARROW_IN, 0.0), (0.0, ARROW_IN))), (labels[-1], (0.0, 0.0))]
     # From the fullest label to the name alone, each with its arrow beside and below.
@@ -127,7 +127,7 @@ def _write(
 
 
 def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]]:
-    """Yield the lines of an array's label, then fewer where there is less room."""
+    """Yield the lines of an array's label, then fewer for less room."""
     name, fmt, says = plan.name_lines(array.id), plan.fmt, [plan.fmt.short]
     # The browser page has a text for each, and no room for more.
     if plan.designs:
@@ -152,7 +152,7 @@ def _array_labels(plan: PlanSheet, array: ArrayAssessment) -> Iterator[list[str]
 
 
 def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
-    """Return where the name of an object fits in the middle of it, if it does."""
+    """Return the position of an object's name in its middle, if it fits."""
     frame = plan.room(item.id)
     wide, tall = text_size(plan.name_lines(item.id))
     is_room = wide < frame.wide and tall < frame.tall
@@ -160,14 +160,14 @@ def name_spot(plan: PlanSheet, item: RoofObject) -> Frame | None:
 
 
 def own_frame(plan: PlanSheet, item: RoofObject) -> Frame | None:
-    """Return the frame of an object that has no room for its name; None of others."""
+    """Return the frame of an object that has no room for its name; None for others."""
     shape = plan.shapes[item.id]
     is_small = isinstance(shape, Rectangle) and name_spot(plan, item) is None
     return plan.paper.frame(shape) if is_small and isinstance(shape, Rectangle) else None
 
 
 def label_object(plan: PlanSheet, item: RoofObject) -> None:
-    """Name an object inside of it, or beside it with a leader."""
+    """Write the name of an object inside its outline, or next to it with a leader."""
     frame = plan.room(item.id)
     lines = plan.name_lines(item.id)
     wide, tall = text_size(lines)

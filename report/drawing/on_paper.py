@@ -1,6 +1,6 @@
-"""The roof plan on paper, to scale: what is on the roof, how far it may move, every clearance.
+"""The roof plan on paper, to scale: items on the roof, their displacements, every clearance.
 
-Places finished numbers and words, which `report.figures.plan_figure` and `report.web.plan` paint.
+Places finished numbers and texts, which `report.figures.plan_figure` and `report.web.plan` paint.
 `report.drawing.plan_layers` has the same plan on layers, for CAD. Read `plan_on_paper` first.
 """
 
@@ -62,7 +62,7 @@ _TICKS = 6  # at most, between coordinates
 
 
 def draw_outlines(plan: PlanSheet) -> None:
-    """Draw the roof and what is on it, and keep labels off it."""
+    """Draw the roof and the items on it, and keep labels off them."""
     lines = outlines(plan.assessment, plan.envelopes)
     for line in sorted(lines, key=lambda line: _OVER[line.layer]):
         name = line.name if line.layer in _NAMED else ""
@@ -77,7 +77,7 @@ def draw_outlines(plan: PlanSheet) -> None:
 
 
 def _avoid(plan: PlanSheet) -> None:
-    """Let labels cover objects and sides of arrays only where there is no other room."""
+    """Let labels cover objects and sides of arrays only if there is no other room."""
     paper = plan.paper
     for array in plan.assessment.arrays:
         for side in paper.sides(array.array.shape.points):
@@ -145,7 +145,7 @@ def plan_on_paper(
     *,
     has_verdicts: bool = True,
 ) -> PlanSheet:
-    """Return the plan at a round scale, or for a screen; displacements may be given in words."""
+    """Return the plan at a round scale, or for a screen; displacements may be given as text."""
     extent = _extent(assessment)
     paper, key = _empty(extent, size, _scale(assessment, extent, size))
     plan = PlanSheet(
@@ -165,7 +165,7 @@ BESIDE_LETTERS = 12
 
 
 class PrintedPlan(NamedTuple):
-    """The plan, its legend, the tables beside it, and what has no room for a label."""
+    """The plan, its legend, the tables next to it, and items without room for a label."""
 
     size: PlanSize
     plan: Paper
@@ -175,7 +175,7 @@ class PrintedPlan(NamedTuple):
 
 
 def printed_plan(assessment: Assessment) -> PrintedPlan:
-    """Return the plan on the paper asked for, or on the first that has room for all."""
+    """Return the plan on the requested paper, or on the first with enough room."""
     arrays = alike_arrays(assessment, unit_format(assessment))
     schedules = {size: fitted_schedule(assessment, arrays, size) for size in _sizes(assessment)}
     # A plan whose schedule has no room beside it need not be drawn.
@@ -191,7 +191,7 @@ def printed_plan(assessment: Assessment) -> PrintedPlan:
 
 
 def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
-    """Return the sizes on the paper asked for, or on any, the smallest first."""
+    """Return the sizes on the requested paper, or on any, the smallest first."""
     small, large = (A4, A3) if assessment.project.is_on_a4 else (LETTER, TABLOID)
     data = assessment.project
     ids = (*(array.id for array in data.arrays), *(item.id for item in data.objects))
@@ -206,7 +206,7 @@ def _sizes(assessment: Assessment) -> Sequence[PlanSize]:
 
 
 def _empty(extent: Rectangle, size: PlanSize, scale: Scale) -> tuple[Paper, Frame]:
-    """Return the paper with the plan in the middle of what the legend leaves, and its frame."""
+    """Return the paper with the plan centered in the area left by the legend, and its frame."""
     left, right, bottom, top = size.fringe
     wide = (extent.x_to_m - extent.x_from_m) / scale.m_per_in
     tall = (extent.y_to_m - extent.y_from_m) / scale.m_per_in

@@ -1,7 +1,7 @@
-"""What a plan on paper consists of, painted in order.
+"""The items of a plan on paper, painted in order.
 
-Positions are in inches, y upward. How an item looks stands with each painter: of the package
-(`report.figures.plan_figure`) and of the page (`report.web.plan`). Read `Item`.
+Positions are in inches, y upward. The appearance of an item is defined by each painter: of the
+package (`report.figures.plan_figure`) and of the page (`report.web.plan`). Read `Item`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from report.typeset.letters import width_em
 
 
 class Mark(Enum):
-    """What is on paper beside the plan itself."""
+    """Items on paper other than the plan itself."""
 
     FAILED = "area of a gap that is not satisfied"
     LEADER = "from what is named to its label"
@@ -36,7 +36,7 @@ Look = Layer | Mark
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outline:
-    """A closed polygon, and what it is of."""
+    """A closed polygon, and the item that it outlines."""
 
     look: Look
     points: tuple[Point, ...]
@@ -45,7 +45,7 @@ class Outline:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lines:
-    """Lines that are one thing, such as a dimension line with its ticks, and what they are of."""
+    """Lines that form one item, such as a dimension line with ticks, and its owner."""
 
     look: Look
     lines: tuple[tuple[Point, ...], ...]
@@ -63,7 +63,7 @@ class Arrow:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Circle:
-    """A circle, and what it is of."""
+    """A circle, and the item that it belongs to."""
 
     look: Look
     center: Point
@@ -87,7 +87,7 @@ Item = Outline | Lines | Arrow | Circle | Text
 
 
 def level(item: Item) -> int:
-    """Return what an item lies over: shapes, then lines and labels, words, and last the word NG."""
+    """Return the layer of an item: shapes, then lines and labels, text, and last the mark NG."""
     if isinstance(item, Text):
         return 4 if item.is_light else 2
     if item.look is Mark.NG:

@@ -101,7 +101,7 @@ class _Frames:
 
 
 class Placer:
-    """Labels placed so far, and what they should not cover."""
+    """Labels placed so far, and items that they should not cover."""
 
     def __init__(self, page: Frame) -> None:
         self._page = page
@@ -118,11 +118,11 @@ class Placer:
         self._taken.add([frame])
 
     def release(self, frame: Frame) -> None:
-        """Give a reserved frame back."""
+        """Release a reserved frame."""
         self._taken.remove(frame)
 
     def avoid(self, frame: Frame) -> None:
-        """Mark a line or a small object, covered only where there is no other room."""
+        """Mark a line or a small object to be covered only if there is no other room."""
         self._lines.add([frame])
 
     def wall(self, frame: Frame) -> None:

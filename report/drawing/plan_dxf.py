@@ -42,7 +42,7 @@ class PlanText:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanDimension:
-    """A dimension between two points; its text is about a point, empty where it has no room."""
+    """A dimension between two points; its text is centered on a point, empty if it does not fit."""
 
     layer: Layer
     name: str
@@ -208,7 +208,7 @@ def _add_style(document: Drawing, plan: PlanDrawing) -> None:
 
 
 def _add_dimension(space: Modelspace, dimension: PlanDimension) -> None:
-    """Add a dimension with its text, which no program measures again, and its picture."""
+    """Add a dimension with fixed text and its graphics."""
     (x0, y0), (x1, y1) = dimension.ends
     drawn = space.add_linear_dim(
         base=dimension.ends[0],

@@ -44,7 +44,7 @@ _PAGE = Frame(-math.inf, -math.inf, math.inf, math.inf)
 
 @dataclass(slots=True)
 class PlacedTexts:
-    """The texts of a plan as far as they are placed, on a paper on which they are as in print."""
+    """The texts of a plan placed so far, on paper at print size."""
 
     height_m: float  # of the texts
     unit_m: float  # size of the unit of the drawing
@@ -60,11 +60,11 @@ class PlacedTexts:
 
     @property
     def right(self) -> float:
-        """The right end of all that is drawn."""
+        """The right end of everything drawn."""
         return self._drawn((self.paper.placer.right, 0.0))[0]
 
     def keep_off(self, line: PlanLine) -> None:
-        """Let no text touch a line [m], or touch an envelope only where there is no other room."""
+        """Let no text touch a line [m], or touch an envelope only if there is no other room."""
         placer = self.paper.placer
         mark = placer.wall if line.layer is Layer.ARRAY else placer.avoid
         for frame in self.paper.sides(line.points):
@@ -76,7 +76,7 @@ class PlacedTexts:
     def name(self, layer: Layer, id: str, words: str, shape: Shape, further: str = "") -> None:
         """Name a shape within it or beside it with a leader, or else by a number in the list.
 
-        What `further` says of it stands where it has room.
+        The text of `further` is placed where it fits.
         """
         inner, key = self.paper.frame(room(shape)), f"({len(self.left) + 1})"
         for text in dict.fromkeys((words + further, words, key)):
@@ -92,7 +92,7 @@ class PlacedTexts:
             self.left.append((id, f"{key} {words}"))
 
     def _beside(self, id: str, words: str, start: Point) -> Frame | None:
-        """Return a place near a point, with a leader to it; None if there is none."""
+        """Return a position near a point, with a leader to it; None if there is none."""
         label = self.paper.placer.place(*_size(words), start)
         if label:
             ends = start, label.nearest(start)
@@ -216,7 +216,7 @@ _ENVELOPES: Mapping[Layer, Callable[[ArrayAssessment], Outline]] = {
 def outlines(
     assessment: Assessment, envelopes: Collection[Layer] = tuple(_ENVELOPES)
 ) -> Iterator[PlanLine]:
-    """Yield what is on the plan, and how far it may move, by the envelopes asked for [m]."""
+    """Yield the items on the plan and the requested envelopes of their displacement [m]."""
     data = assessment.project
     if data.roof.placed is not None:
         yield _closed(Layer.OUTLINE, ROOF, data.roof.placed.points)
@@ -300,7 +300,7 @@ def _wide(text: str, height: float) -> float:
 def _schedules(
     assessment: Assessment, unplaced: Sequence[tuple[str, str]], corner: Point, height: float
 ) -> tuple[list[PlanLine], list[PlanText], float]:
-    """Return what the drawing is of, and the arrays and gaps as tables; the lowest y."""
+    """Return the title of the drawing, and the arrays and gaps as tables; the lowest y."""
     us_first, (x, y), step = assessment.project.us_first, corner, _LINE * height
     notes = [*(("", f"{head}: {text}") for head, text in title_block(assessment)), *unplaced]
     texts = [
@@ -325,7 +325,7 @@ _OF_GAPS = ("CLEARANCE", "BETWEEN", "PROVIDED", "REQUIRED", "VERDICT")
 
 
 def title_block(assessment: Assessment) -> Sequence[tuple[str, str]]:
-    """Return what identifies the drawing, each with its heading."""
+    """Return the identification of the drawing, each item with its heading."""
     project = assessment.project.project
     return (
         ("PROJECT", f"{project.number} {project.name}"),
@@ -349,7 +349,7 @@ def gap_cells(gap: PlanGap, us_first: bool) -> Sequence[str]:
 
 
 def array_cells(assessment: Assessment, array: ArrayAssessment) -> Sequence[str]:
-    """Return the row of an array: how far it moves, what is kept clear of it, and its slope."""
+    """Return the row of an array: displacement, keep-clear distance and slope."""
     us_first, verdict = assessment.project.us_first, assessment.array_verdict(array).value
     # The fonts of a CAD program may lack the true minus sign.
     slope = number(math.degrees(array.array.slope_rad), 2).replace("−", "-")

@@ -1,4 +1,4 @@
-"""What the tables beside a printed roof plan have room for: arrays that are alike, and clearances.
+"""Contents of the tables next to a printed roof plan: groups of equal arrays, and clearances.
 
 Twelve arrays of one size, slope and displacement are one row, `A1 to A12`. Read `fitted_schedule`.
 """
@@ -38,7 +38,7 @@ class AlikeArrays(NamedTuple):
 
 
 def alike_arrays(assessment: Assessment, fmt: UnitFormat) -> Sequence[AlikeArrays]:
-    """Return the arrays of an assessment, those alike together."""
+    """Return the arrays of an assessment, equal ones together."""
 
     def key(array: ArrayAssessment) -> tuple[str, str, str, str]:
         design = fmt.first(array.permitted_m, mark=array.overridden.design, show=no_less)
@@ -59,20 +59,20 @@ def size_words(shape: Shape, fmt: UnitFormat) -> str:
 
 
 class Schedule(NamedTuple):
-    """What is beside a plan: whether the table of arrays, and rows of the schedule by column."""
+    """Contents next to a plan: whether the table of arrays, and rows of the schedule by column."""
 
     has_arrays: bool
     rows: Sequence[int]
 
     def is_all(self, assessment: Assessment) -> bool:
-        """Whether it is all that there is."""
+        """Whether it is complete."""
         return self.has_arrays and sum(self.rows) == len(assessment.clearances)
 
 
 def fitted_schedule(
     assessment: Assessment, arrays: Sequence[AlikeArrays], size: PlanSize
 ) -> Schedule:
-    """Return what has room beside a plan."""
+    """Return the contents that fit next to a plan."""
     room = size.tall + _BELOW_IN
     arrays_tall = _AROUND_ARRAYS_IN
     arrays_tall += ROW_IN * sum(_lines(row.ids, _IDS_IN) for row in arrays)
@@ -94,5 +94,5 @@ def fitted_schedule(
 
 
 def _lines(words: str, wide: float) -> int:
-    """Return how many lines words take in a cell of a table."""
+    """Return the number of lines of a text in a cell of a table."""
     return math.ceil(width_in(words) / wide)

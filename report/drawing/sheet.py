@@ -1,4 +1,4 @@
-"""A roof plan while it is drawn: its paper and scale, what is on the roof, what found no room.
+"""A roof plan while it is drawn: paper and scale, items on the roof, items without room.
 
 Read `report.drawing.on_paper` first.
 """
@@ -71,12 +71,12 @@ class Paper:
     items: list[Item] = field(default_factory=list)  # what is drawn so far, in order
 
     def at(self, point: Point) -> Point:
-        """Return where a point of the plan [m] is on paper."""
+        """Return the position of a point of the plan [m] on paper."""
         (x, y), m_per_in = self.origin, self.scale.m_per_in
         return x + point[0] / m_per_in, y + point[1] / m_per_in
 
     def frame(self, shape: Rectangle) -> Frame:
-        """Return where a rectangle of the plan is on paper."""
+        """Return the position of a rectangle of the plan on paper."""
         low, _, high, _ = map(self.at, shape.points)
         return Frame(*low, *high)
 
@@ -228,12 +228,12 @@ class PlanSheet:
 
     @cached_property
     def shapes(self) -> Mapping[str, Shape]:
-        """What is on the plan, by name [m]."""
+        """Items on the plan, by name [m]."""
         return self.assessment.project.shapes
 
     @cached_property
     def gaps(self) -> Sequence[Gap]:
-        """The clearances between shapes, and what is NG without one."""
+        """The clearances between shapes, and NG pairs without one."""
         return [Gap(gap, *map(self.paper.at, gap.ends)) for gap in plan_gaps(self.assessment)]
 
     @property
@@ -247,7 +247,7 @@ class PlanSheet:
 
     @property
     def envelopes(self) -> Collection[Layer]:
-        """Which of the outlines that show how far an array may move are drawn."""
+        """The displacement envelopes of arrays that are drawn."""
         if self.size.is_full:
             return (Layer.RUNS, Layer.DESIGN)
         return (Layer.DESIGN,) if self.size.is_screen else ()
@@ -259,7 +259,7 @@ class PlanSheet:
 
     @property
     def placed(self) -> list[RoofObject]:
-        """The objects on the plan that are no edges."""
+        """The objects on the plan other than edges."""
         return [item for item in self._objects if item.kind not in EDGES]
 
     @property
@@ -272,11 +272,11 @@ class PlanSheet:
         return [item for item in self.assessment.project.objects if item.id in self.shapes]
 
     def is_ng(self, gap: Gap) -> bool:
-        """Whether the plan says that a gap is not satisfied."""
+        """Whether the plan marks a gap as not satisfied."""
         return self.has_verdicts and gap.of.is_ng
 
     def room(self, name: str) -> Frame:
-        """Return where there is room on paper within a shape."""
+        """Return the free area on paper within a shape."""
         return self.paper.frame(room(self.shapes[name]))
 
     def leader(self, start: Point, label: Frame, radius: float = 0.0) -> None:

@@ -1,1 +1,1 @@
-"""A roof plan read from a drawing into the workbook. Read `report.drawing_read.fill`."""
+"""Imports a roof plan from a drawing into the workbook. Read `report.drawing_read.fill`."""

@@ -1,4 +1,4 @@
-"""Areas of a drawing, which are hatches, faces and meshes, as polygons with their outlines.
+"""Areas of a drawing (hatches, faces and meshes) as polygons with their outlines.
 
 Two faces that touch are one area; a hatch over a closed line is its fill, and no outline. Points
 are in world coordinates and the unit of the drawing. Read `boundaries`, then `outlines`.

@@ -1,4 +1,4 @@
-"""A ballast map: how many blocks lie where, and what each array carries by it.
+"""A ballast map: number and location of blocks, and the ballast of each array.
 
     x,y,blocks      on an array from x 20 to 25 and y 15 to 35 ft, with the middle at 22.5, 25:
     22.5,18,2       three blocks, with their center at 22.5, 22 ft
@@ -96,7 +96,7 @@ def read_map(path: Path, unit_m: float) -> Any:
 
 
 def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list[int]]:
-    """Return what each array carries that has blocks, and the lines of blocks outside of all."""
+    """Return the ballast of each array with blocks, and the lines of blocks outside all arrays."""
     solids = [solid(shape) for shape in arrays.values()]
     points = shapely.STRtree(shapely.points(rows[:, 1:3]))
     # Of arrays that overlap the last one carries the block: it is counted once.

@@ -1,7 +1,7 @@
 """Open lines of a drawing whose ends meet, joined into closed lines.
 
 The four sides of an array that are drawn one by one are its outline, wherever each begins. Where
-three meet at a point nobody knows which belong together. Read `join`.
+three lines meet at a point, it is ambiguous which belong together. Read `join`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Closed = tuple[list[Point], list[int]]
 
 
 def join(lines: Sequence[Line], tolerance: float) -> tuple[list[Closed], Mapping[int, str]]:
-    """Return the closed lines of open ones whose ends meet within a tolerance, and why not all."""
+    """Return closed lines from open ones with ends within a tolerance, and reasons for the rest."""
     cells: dict[Point, list[Point]] = defaultdict(list)
     # Ends that meet are one point from here on, so that a chain is found by equality.
     ends: dict[int, tuple[Point, Point]] = {}

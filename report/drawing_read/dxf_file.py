@@ -1,4 +1,4 @@
-"""The file of a roof drawing: refused if it is no DXF in text or too large, else loaded by ezdxf.
+"""The file of a roof drawing: rejected if not a text DXF or too large, otherwise loaded by ezdxf.
 
 Knows no entity (`report.drawing_read.read_dxf`). Read `loaded` first.
 """
@@ -54,7 +54,7 @@ _ENTITY = re.compile(rb"^[ \t]*0[ \t]*\r?\n[ \t]*[A-Z3_]", re.MULTILINE)
 
 
 def other_unit(code: int) -> str:
-    """Return what to say of a unit of `OTHER_UNITS`, by $INSUNITS; empty for another."""
+    """Return the message for a unit of `OTHER_UNITS`, by $INSUNITS; empty for others."""
     if code not in OTHER_UNITS:
         return ""
     stated, unit = OTHER_UNITS[code]
@@ -64,7 +64,7 @@ def other_unit(code: int) -> str:
 
 
 def _read(path: Path) -> bytes:
-    """Return a drawing; refuse what is no DXF in text, and what is too large to load."""
+    """Return a drawing; reject a file that is not a text DXF or is too large."""
     if not path.exists():
         raise InputError(f"no such file; {meant(path) or 'use a DXF drawing'}")
     data = read_file(path, MAX_BYTES, too_large="save only the roof plan")
@@ -82,7 +82,7 @@ def _read(path: Path) -> bytes:
 
 
 def limit(count: int, allowed: int, noun: str) -> None:
-    """Refuse more than a drawing may have."""
+    """Reject a drawing that exceeds a limit."""
     if count > allowed:
         raise InputError(
             f"{count:,} {noun}, more than {allowed:,}; save only the layers of the roof plan"
@@ -90,7 +90,7 @@ def limit(count: int, allowed: int, noun: str) -> None:
 
 
 def loaded(path: Path) -> tuple[Document, str]:
-    """Return a drawing, and what to say of its repair if strict reading refuses it.
+    """Return a drawing, and a note on its repair if strict reading rejects it.
 
     Raises `InputError` if it is no DXF, damaged, or too large.
     """

@@ -23,12 +23,12 @@ _STACKS, _ESCAPED = re.compile(r"(?<!\\)[\^/#]"), re.compile(r"\\([\^/#;])")
 
 @lru_cache(maxsize=1024)  # thousands of entities are on a few layers
 def printable(text: object) -> str:
-    """Return a text of the drawing without what no terminal and no page may print."""
+    """Return a text of the drawing without unprintable characters."""
     return trimmed(UNPRINTABLE.sub("", str(text)))
 
 
 def lines_of_text(entity: Any) -> list[str]:
-    """Return the lines of a text or an attribute that say something."""
+    """Return the lines of a text or an attribute that are not blank."""
     if entity.dxftype() == "ATTRIB" and entity.has_embedded_mtext_entity:
         entity = entity.virtual_mtext_entity()
     is_mtext = entity.dxftype() == "MTEXT"
@@ -53,7 +53,7 @@ def _fraction(code: re.Match[str]) -> str:
 
 
 def attributes(insert: Any) -> tuple[str, tuple[str, ...]]:
-    """Return what the attributes of a block say: its name, and heights with their tags."""
+    """Return the content of the attributes of a block: its name, and heights with their tags."""
     values = {str(a.dxf.tag).casefold(): next(iter(lines_of_text(a)), "") for a in insert.attribs}
     texts = [values.pop(tag.casefold(), "") for tag in _HEIGHTS]
     heights = tuple(f"{tag} {text}" for tag, text in zip(_HEIGHTS, texts, strict=True) if text)

@@ -1,4 +1,4 @@
-"""Fills the plan as drawn, and ballast, into the cells of a workbook that is being changed.
+"""Writes the plan as drawn, and ballast, to the cells of a workbook that is being changed.
 
 Reads no drawing and writes no file. Read `plan_as_rows`, then `fill_plan`.
 """
@@ -35,7 +35,7 @@ _MOVE = "Run roofslip new FOLDER and copy your cells into the new workbook"
 
 
 def layers_of(inputs: Inputs) -> dict[str, LayerKind]:
-    """Return what the Layers worksheet says of layers."""
+    """Return the layer types on the Layers worksheet."""
     known = (row for row in inputs["layers"] if {"layer", "kind"} <= row.keys())
     return {row["layer"]: row["kind"] for row in known}
 
@@ -49,7 +49,7 @@ def plan_as_rows(
     *,
     is_unit_given: bool,
 ) -> tuple[RoofPlan, dict[str, LayerKind]]:
-    """Return the plan of a drawing, as rows of a workbook, and what is said of its layers.
+    """Return the plan of a drawing, as rows of a workbook, and the types of its layers.
 
     `layers` add to the Layers worksheet; a layer that nobody says anything of is not read.
     `joined_m` is the largest gap between modules of one array.
@@ -91,7 +91,7 @@ def _refuse(plan: RoofPlan, drawn: RoofDrawing) -> NoReturn:
 
 
 def unread(plan: RoofPlan) -> Iterator[str]:
-    """Yield what was not understood, once for each cause, with its layers and some handles."""
+    """Yield unreadable entities, once for each cause, with their layers and some handles."""
     for reason, items in grouped_by(plan.unread, lambda item: item.reason).items():
         layers = listed(item.layer for item in items)
         handles = listed(f"{item.handle} {item.detail}".strip() for item in items)
@@ -108,11 +108,11 @@ _NAMED: Mapping[str, Sequence[str]] = {
 def fill_plan(
     change: WorkbookChange, plan: RoofPlan, layers: Mapping[str, LayerKind], *, replace: bool
 ) -> list[str]:
-    """Fill in the plan, and what its layers are; return lines on it.
+    """Fill in the plan and the types of its layers; return lines on it.
 
-    They say what moved, what was typed and is lost, and what lies far off.
+    The lines state what moved, which typed entries are lost, and what lies far away.
 
-    Raises `InputError` for each place that is filled already, unless it may be replaced.
+    Raises `InputError` for each location already entered, unless it may be replaced.
     """
     # Rows of the same ID get its place, and keep everything else; others are added below, and those
     # that are to be taken out are emptied wherever they are named.
@@ -153,7 +153,7 @@ def _check_outlines(change: WorkbookChange, plan: RoofPlan, replace: bool) -> No
 
 
 def _move_typed(change: WorkbookChange, plan: RoofPlan, move: Move) -> list[str]:
-    """Move what was typed with the plan as a whole: places, and directions as it is turned."""
+    """Move typed entries with the plan as a whole: locations, and directions as it is rotated."""
     for name in plan.typed:
         key = "arrays" if change.rows("arrays", "id", name) else "objects"
         _fill_place(change, key, change.rows(key, "id", name)[0], name, plan.before[name], "")
@@ -183,7 +183,7 @@ def fill_ballast(
 
 
 def _fill_arrays(change: WorkbookChange, plan: RoofPlan) -> list[str]:
-    """Fill in arrays; what is typed of one whose size, given as it was, is another is said."""
+    """Fill in arrays; report typed entries of an array whose size has changed."""
     lines = []
     for place in plan.arrays:
         row, values = _row_of(change, "arrays", place)
@@ -200,7 +200,7 @@ def _fill_arrays(change: WorkbookChange, plan: RoofPlan) -> list[str]:
 
 
 def _fill_objects(change: WorkbookChange, plan: RoofPlan, replace: bool) -> list[str]:
-    """Fill in objects; a kind or a height that is another one now is said."""
+    """Fill in objects; report a type or a height that has changed."""
     lines = []
     for place in plan.objects:
         is_new = not change.rows("objects", "id", place.name)
@@ -219,7 +219,7 @@ def _fill_objects(change: WorkbookChange, plan: RoofPlan, replace: bool) -> list
 
 
 def _row_of(change: WorkbookChange, key: str, place: DrawnOutline) -> tuple[int, dict[str, Value]]:
-    """Return the row of an outline, filled with its place, and what else it gets."""
+    """Return the row of an outline, filled with its location, and further cells."""
     rows = change.rows(key, "id", place.name)
     row = rows[0] if rows else change.added_row(key)
     _fill_place(change, key, row, place.name, place.shape, DRAWING)
@@ -234,7 +234,7 @@ def _row_of(change: WorkbookChange, key: str, place: DrawnOutline) -> tuple[int,
 def _fill_place(
     change: WorkbookChange, key: str, row: int, name: str, shape: Shape, source: str
 ) -> None:
-    """Fill in the sides of a rectangle or the outline of a polygon, and clear a former place."""
+    """Fill in the sides of a rectangle or the outline of a polygon; clear the previous location."""
     taken = [side for side in SIDES if not change.cell(key, row, side).is_blank]
     if taken:
         change.refuse(key, row, taken[0], f"the place of {name}")
@@ -247,7 +247,7 @@ def _fill_place(
 
 
 def _take_out(change: WorkbookChange, name: str) -> list[str]:
-    """Empty the rows of an array or an object that is not drawn any more, and those beside it."""
+    """Clear the rows of an array or an object that is no longer drawn, and related rows."""
     lost = []
     for key, columns in _NAMED.items():
         if is_absent(change.book, SECTION[key]):
@@ -266,7 +266,7 @@ def _take_out(change: WorkbookChange, name: str) -> list[str]:
 
 
 def _typed(change: WorkbookChange, key: str, row: int, drawn: set[str]) -> str:
-    """Return what the cells of a row say but for its name, its place and what is drawn."""
+    """Return the typed entries of a row other than its name, its location and drawn values."""
     columns = change.table(key).columns
     names = [name for name in columns if not change.cell(key, row, name).is_blank]
     passed = {"id", "place_from", *SIDES, *drawn}
@@ -274,7 +274,7 @@ def _typed(change: WorkbookChange, key: str, row: int, drawn: set[str]) -> str:
 
 
 def _entered(change: WorkbookChange, key: str, row: int, name: str) -> str:
-    """Return a cell in words, such as `height 36 in`."""
+    """Return a cell as text, such as `height 36 in`."""
     label, unit = SECTION[key].entry(name).spoken, change.table(key).columns[name].unit
     return f"{label} {change.cell(key, row, name).shown} {unit}".strip()
 
@@ -307,7 +307,7 @@ def _fill_roof(change: WorkbookChange, shape: Shape) -> None:
 
 
 def _fill_outline(change: WorkbookChange, name: str, shape: Shape, source: str) -> None:
-    """Fill in the outline of a place below the others, and clear a former one."""
+    """Fill in an outline below the others, and clear the previous one."""
     if is_absent(change.book, SECTION["outlines"]):
         return
     rows = change.rows("outlines", "name", name)

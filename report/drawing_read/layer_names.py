@@ -48,14 +48,14 @@ _PATTERNS: tuple[tuple[re.Pattern[str], LayerKind], ...] = (
 
 
 def proposed(layer: str) -> LayerKind | None:
-    """Return what is likely drawn on a layer; None where its name does not say."""
+    """Return the likely content of a layer; None if its name does not tell."""
     # A reference that is bound to the drawing has its name before that of the layer.
     name = re.sub(r"[ _-]+", "-", re.split(r"[|$]", layer)[-1].upper())
     return next((kind for pattern, kind in _PATTERNS if pattern.search(name)), None)
 
 
 def drawn_on(drawing: RoofDrawing, layer: str) -> str:
-    """Return what is drawn on a layer, such as `3 LWPOLYLINE, 2 TEXT`."""
+    """Return the entities on a layer, such as `3 LWPOLYLINE, 2 TEXT`."""
     counts = sorted(
         (kind, count) for (name, kind), count in drawing.counts.items() if name == layer
     )

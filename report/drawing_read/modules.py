@@ -1,4 +1,4 @@
-"""Modules of a roof drawing, joined into the arrays that they make up, each with its outline.
+"""Modules of a roof drawing, grouped into arrays, each with its outline.
 
 Twelve equal rectangles of 2.0 by 1.1 m, 0.3 m apart, are one array, outlined with its gaps closed.
 

@@ -1,6 +1,6 @@
-"""How a plan as a whole has moved between a workbook and a drawing: shift, turn, factor, mirror.
+"""Movement of a whole plan between a workbook and a drawing: shift, turn, factor, mirror.
 
-A plan in inches of which the workbook has feet is twelve times as large, and turned by nothing.
+A plan in inches, entered in feet in the workbook, is twelve times as large and not rotated.
 
 Knows no cells (`report.drawing_read.fill`). Read `whole_move` first. Points are complex.
 """
@@ -50,22 +50,22 @@ class Move:
 
     @property
     def factor(self) -> float:
-        """How many times as large the plan is."""
+        """Factor on the size of the plan."""
         return round(abs(self.turn), 6)
 
     def of(self, shape: Shape) -> Shape:
-        """Return where a shape of the workbook is."""
+        """Return the moved shape of a shape of the workbook."""
         points = [complex(x, -y if self.is_mirrored else y) for x, y in shape.points]
         moved = [self.turn * point + self.shift for point in points]
         return shape if self.is_none else boxed(Polygon(ring([(z.real, z.imag) for z in moved])))
 
     def way_deg(self, degrees: float) -> float:
-        """Return a direction in plan, counterclockwise from +x, as it is now."""
+        """Return a moved direction in plan, counterclockwise from +x."""
         way_deg = math.degrees(cmath.phase(self.turn)) + (-1 if self.is_mirrored else 1) * degrees
         return round(way_deg, 6) % 360.0
 
     def words(self, unit: Unit) -> str:
-        """Return what has moved: `rotated counterclockwise by 90°, moved by x 2, y 0 ft`."""
+        """Return the movement as text: `rotated counterclockwise by 90°, moved by x 2, y 0 ft`."""
         x, y = (f"{m / unit.si:.{unit.decimals}f}" for m in (self.shift.real, self.shift.imag))
         parts = {
             "mirrored": self.is_mirrored,
@@ -82,7 +82,7 @@ def whole_move(
     drawn: Sequence[Keyed],
     named: Iterable[tuple[Shape, Shape]],
 ) -> Move | None:
-    """Return how a plan has moved; None if the roof has, and how cannot be told.
+    """Return the movement of a plan; None if the roof has moved in an undetermined way.
 
     The roof and rows of the same name are given as they were and as they are drawn.
     """
@@ -119,7 +119,7 @@ def whole_move(
 
 
 def _agreeing(move: Move, rows: Sequence[Keyed], drawn: Sequence[Keyed]) -> int:
-    """Return how many rows are where they are drawn after a move."""
+    """Return the number of rows that match the drawing after a move."""
     if not rows:
         return 0
     shapes = [solid(move.of(shape)) for _, shape in rows]

@@ -1,4 +1,4 @@
-"""The roof plan as drawn, and what has moved in it since the rows of a workbook."""
+"""The roof plan as drawn, and its changes since the rows of a workbook."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class RoofPlan:
 
 
 def placed(shape: Shape, unit: Unit) -> str:
-    """Return where a shape is, such as `x 0.00 to 80.00, y 10.00 to 50.00 ft`."""
+    """Return the location of a shape, such as `x 0.00 to 80.00, y 10.00 to 50.00 ft`."""
     box = shape.bounds
     ends = ((box.x_from_m, box.x_to_m), (box.y_from_m, box.y_to_m))
     x, y = (" to ".join(f"{end / unit.si:.{unit.decimals}f}" for end in pair) for pair in ends)

@@ -1,4 +1,4 @@
-"""What a roof drawing says of the plan: arrays, objects, edges and the roof, by layer and name.
+"""Interprets a roof drawing as a plan: arrays, objects, edges and the roof, by layer and name.
 
 Knows no file and no cells (`report.drawing_read.read_dxf`, `report.drawing_read.fill`). Read
 `plan_of` first.
@@ -163,7 +163,7 @@ def check_size(plan: RoofPlan, stated: str, us_first: bool = True) -> None:
 
 
 def unit_asked(would_do: Sequence[str], stated: str) -> str:
-    """Return a question of the unit of a drawing: those that would do, or that which it states."""
+    """Return a question on the unit of a drawing: units that fit, or the stated one."""
     alternatives = f"{' or '.join(would_do)}, or " if would_do else ""
     return (
         f"enter the unit of the drawing (--units, or Unit on the page): {alternatives}{stated} if"
@@ -182,7 +182,7 @@ def _is_usual(place: DrawnOutline, factor: float, least_array_m2: float) -> bool
 
 
 def known_layers(layers: Mapping[str, LayerKind]) -> dict[str, LayerKind]:
-    """Return what is drawn on `LAYERS` and on others, which count more, by name in lower case."""
+    """Return the types of `LAYERS` and of others, which take precedence, by lowercase name."""
     return {name.casefold(): kind for name, kind in (*LAYERS.items(), *layers.items())}
 
 

@@ -1,4 +1,4 @@
-"""Reads a roof drawing: its closed lines with their layers and names, and what else there is.
+"""Reads a roof drawing: its closed lines with their layers and names, and everything else.
 
 Knows no workbook and no kinds (`report.drawing_read.plan_read`).
 `report.drawing_read.dxf_file` loads it.
@@ -127,7 +127,7 @@ def _drawn_layouts(document: Document, unit_m: float, hidden: Mapping[str, str])
 
 
 def _check_expanded(count: int) -> None:
-    """Refuse a drawing that shows too much: entities, or blocks, which may be empty."""
+    """Reject a drawing with too many entities, or blocks, which may be empty."""
     if count > MAX_ENTITIES:
         raise InputError(
             f"its blocks expand to more than {MAX_ENTITIES:,} entities; explode those of"
@@ -303,7 +303,7 @@ class _Reader:
         self._take_areas()
 
     def _leave(self, handle: str, layer: str, reason: str) -> None:
-        """Note what is not read; after a colon, what of it."""
+        """Note what is not read, with details after a colon."""
         cause, _, detail = re.sub("^a (?=[AEIO])", "an ", reason).partition(": ")
         unread = Unread(handle=handle, layer=layer, reason=cause, detail=detail)
         self.drawing.unread.append(unread)
@@ -344,7 +344,7 @@ class _Reader:
         return ""
 
     def _clip_off(self, first: int, clip: _Clip) -> None:
-        """Leave out the lines of a block that its clip hides whole."""
+        """Skip the lines of a block that its clip hides completely."""
         path, is_inverted = clip
         area, lines = shapely.Polygon(path).buffer(0.0), self.drawing.lines[first:]
         del self.drawing.lines[first:]

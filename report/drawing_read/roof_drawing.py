@@ -1,4 +1,4 @@
-"""What a roof drawing consists of: outlines, texts, and what was not understood.
+"""Contents of a roof drawing: outlines, texts, and entities that were not understood.
 
 Knows no file (`report.drawing_read.read_dxf`) and no workbook.
 """
@@ -52,7 +52,7 @@ class Words:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unread:
-    """Something of a drawing that was not understood, why, and what of it."""
+    """An entity of a drawing that was not understood, the reason, and details."""
 
     handle: str
     layer: str
@@ -62,7 +62,7 @@ class Unread:
 
 @dataclass(frozen=True, slots=True)
 class RoofDrawing:
-    """What a drawing consists of."""
+    """Contents of a drawing."""
 
     unit: str  # empty if it states none of `UNITS`
     other_unit: str = ""  # what to say of one of `OTHER_UNITS`; empty for none

@@ -1,4 +1,4 @@
-"""Which row of a workbook each outline of a drawing is: by its name, else by its place.
+"""Matches each outline of a drawing with a row of a workbook: by name, else by location.
 
 An outline without a name that covers most of the former place of A2 is A2.
 
@@ -43,7 +43,7 @@ Pairs = Mapping[tuple[int, str], float]  # how well an outline, by its number, i
 def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
     """Return a plan with the names of the rows of a workbook.
 
-    Raises `InputError` with the candidates, for what cannot be told.
+    Raises `InputError` with the candidates of each ambiguous outline.
     """
     known = [*inputs["arrays"], *inputs["objects"]]
     rows = {row["id"]: row for row in known if "id" in row}
@@ -124,7 +124,7 @@ def _move_of_plan(
     groups: Mapping[str, str],
     by_row: Mapping[int, str],
 ) -> Move | None:
-    """Return how the plan as a whole has moved; None if it cannot be told."""
+    """Return the movement of the plan as a whole; None if it cannot be determined."""
     drawn = (*plan.arrays, *plan.objects)
     # Of a row whose name is not in the drawing only its group is known. Edges follow the roof.
     keyed = [
@@ -183,7 +183,7 @@ def _same_sized(place: DrawnOutline, row: Shape) -> float:
 def _tell(
     pairs: Pairs, drawn: Sequence[DrawnOutline], matches: dict[int, str], unit: Unit
 ) -> Iterator[str]:
-    """Add the rows that are plain, the best first, and yield what is not, as far as it is told."""
+    """Add the unambiguous rows, the best first, and yield the others, as far as determined."""
     count = 0
     while pairs and count < MOST_TOLD:
         number, name = best = max(pairs, key=pairs.__getitem__)

@@ -1,4 +1,4 @@
-"""Reads the components of each motion that a workbook names, and processes them as requested.
+"""Reads the components of each motion in a workbook, and processes them as requested.
 
 Owns how components are combined; `record_reading` reads them, `history` makes motions of them.
 """
@@ -78,7 +78,7 @@ class RecordFile:
 
     @property
     def is_file(self) -> bool:
-        """Whether it lies beside the workbook, not in a sheet of it."""
+        """Whether it is a file next to the workbook, not a column of one of its sheets."""
         return self.size > 0
 
 
@@ -192,7 +192,7 @@ def _unscalable(
 
 
 def _no_motion(index: int, records: Mapping[str, Record]) -> Iterator[Finding]:
-    """Yield what is no earthquake motion, as run: too short, or without a horizontal component."""
+    """Yield faults of motions as run: too short, or without a horizontal component."""
     horizontal = records["record"]
     duration_s = (len(horizontal.a_mps2) - 1) * horizontal.dt_s
     place = Place("motions", index, "record")

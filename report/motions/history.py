@@ -1,4 +1,4 @@
-"""From processed records to motions as run: scaled, and carried to the roof for ground motions.
+"""From processed records to motions as run: scaled, and for ground motions transferred to the roof.
 
 Owns the order of these steps and records what each did; the steps themselves are those of
 `solver.records.spectrum` and `solver.building.roof`. Owns the target spectra that a project

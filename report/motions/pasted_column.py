@@ -1,4 +1,4 @@
-"""A record that is pasted into a sheet of the workbook: the column below its heading.
+"""A record pasted into a worksheet of the workbook: the column below its heading.
 
 `Records!x_g` names it. The heading's unit and a column of times to its left are checked against the
 units and the time step of the motion. Read `read_column`.
@@ -30,7 +30,7 @@ MAX_TOLD = 5
 
 
 def heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
-    """Return the cell of a heading on a sheet; raises `InputError` if it is not there, or twice."""
+    """Return the cell of a heading on a sheet; raises `InputError` if it is missing or repeated."""
     extent, sheet = book.extent(title), book.book[title]
     rows = range(1, min(HEADING_ROWS, extent.last_row) + 1)
     columns = range(1, min(MAX_COLUMNS, extent.last_column) + 1)
@@ -56,7 +56,7 @@ def read_column(
     """Return the record below a heading, and the cells that it is read from.
 
     It is in the units and at the time step of its motion. Raises `InputError` for a cell without a
-    number, and where the sheet says something else.
+    number, or if the sheet contradicts the motion.
     """
     extent = book.extent(heading.sheet)
     if extent.last_row > heading.row + MAX_SAMPLES:

@@ -1,6 +1,6 @@
-"""The motions of a workbook, ready to run: records read, processed, scaled, carried to the roof.
+"""The motions of a workbook, ready to run: records read, processed, scaled, moved to the roof.
 
-Orders the steps: `components` reads, `history` scales and carries to the roof. Read `prepare`.
+Orders the steps: `components` reads, `history` scales and transfers to the roof. Read `prepare`.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def read_records(sheet: Sheet) -> tuple[Components, ...]:
 
 
 def shaking(sheet: Sheet, by_motion: Sequence[Components]) -> Shaking:
-    """Scale the records of each motion and carry them to the roof.
+    """Scale the records of each motion and transfer them to the roof.
 
     Raises `InputError` with the problems of the workbook.
     """

@@ -1,4 +1,4 @@
-"""What is unusual in the records of a workbook: a peak, a step, a duration, a length, a spike.
+"""Findings on unusual records of a workbook: a peak, a step, a duration, a length, a spike.
 
 A record of 50 Hz has a step of 0.02 s and no content above 25 Hz. Read `record_findings`.
 """
@@ -34,7 +34,7 @@ MOST_UNEQUAL = 0.05
 
 
 def record_findings(data: ProjectInput, shaking: Shaking) -> Iterator[Finding]:
-    """Yield what is unusual in the records of each motion."""
+    """Yield findings on unusual records of each motion."""
     yield from _unlike_peaks(shaking.motions)
     for index, row in enumerate(data.motions):
         files = [file for file in shaking.records if file.motion_id == row.id]

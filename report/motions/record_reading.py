@@ -1,4 +1,4 @@
-"""Reads one record that a workbook names: a file beside it, or a column in one of its sheets.
+"""Reads one record of a workbook: a file next to it, or a column in one of its sheets.
 
 `solver.formats` reads the record formats, `report.motions.pasted_column` a column; which files a
 workbook may access is in `report.project.read.documents`. Read `read_component`.
@@ -53,7 +53,7 @@ class Component:
 def read_component(
     book: OpenBook, name: str, units: str, dt_s: float | None, read: Reader = read_motion_file
 ) -> Component:
-    """Return the record that a workbook names as file, file | channel, or Sheet!Header.
+    """Return the record named in a workbook as file, file | channel, or Sheet!Header.
 
     Without `units` and `dt_s` the file must state them.
 
@@ -95,7 +95,7 @@ def find_file(book: OpenBook, name: str) -> tuple[Path, str]:
 
 
 def bytes_of(book: OpenBook, names: Set[str]) -> int:
-    """Return the size of the files of some names [bytes]; of what is no file, nothing."""
+    """Return the total size of named files [bytes]; other names are ignored."""
     total = 0
     for name in names:
         with suppress(InputError):

@@ -1,7 +1,7 @@
-"""Motions that are given twice: equal horizontal samples, apart from scale and sign.
+"""Motions that are listed twice: equal horizontal samples, apart from scale and sign.
 
-Two components of one recording differ, and so do two recordings: the same samples are one motion
-that would count twice in a mean. Read `repeated`.
+Two components of one recording differ, and so do two recordings: equal samples are one motion that
+would be counted twice in a mean. Read `repeated`.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class _Horizontal:
     shape: Floats
 
     def repeats(self, record: _Horizontal) -> bool:
-        """Whether it is another one again, at any scale and of either sign."""
+        """Whether it repeats another one, at any scale and of either sign."""
         # Times that two motions take of their records may be apart: a file may hold two.
         (start, end), (other_start, other_end) = map(_times, (self.row, record.row))
         overlaps = start < other_end and other_start < end
@@ -67,7 +67,7 @@ def repeated(
 def _repetition(
     records: Sequence[tuple[_Key, _Horizontal]], seen: Mapping[_Key, Sequence[_Horizontal]]
 ) -> tuple[_Horizontal, _Horizontal] | None:
-    """Return the first record that is one of the earlier ones again, with that one."""
+    """Return the first record that repeats an earlier one, with that one."""
     for key, record in records:
         for earlier in seen.get(key, ()):
             if record.repeats(earlier):

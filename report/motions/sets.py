@@ -1,4 +1,4 @@
-"""Which records of a folder are the two horizontal components and the vertical of one motion.
+"""Groups records of a folder into motions: two horizontal components and a vertical one.
 
 RM1-x.csv, RM1-y.csv and RM1-z.csv are the motion RM1.
 
@@ -83,12 +83,12 @@ class Candidate:
 
     @property
     def name(self) -> str:
-        """How it is named from the folder."""
+        """Its name relative to the folder."""
         return f"{self.file} {BAR} {self.channel}" if self.channel else self.file
 
     @property
     def taken_for(self) -> str:
-        """Which component it is by its heading or name."""
+        """Its component according to heading or name."""
         if not self.is_horizontal:
             return f"vertical, positive {self.family}"
         if self.family == _AZIMUTH:
@@ -119,11 +119,11 @@ def sets_of(
     name_of_all: str = "",
     without_vertical: bool = False,
 ) -> tuple[Sets, Sequence[Left]]:
-    """Return the sets of three in a folder and the folders in it, and what is left.
+    """Return the sets of three in a folder and its subfolders, and the remaining files.
 
-    A motion that its files do not name has `name_of_all`, or that of the folder. Two horizontal
-    records alone are a set where that is asked. Raises `InputError` if it has more than
-    `MOST_FILES` files.
+    A motion not named by its files gets `name_of_all`, or the name of the folder. Two horizontal
+    records alone form a set if requested. Raises `InputError` if it has more than `MOST_FILES`
+    files.
     """
     # Sorted: what is taken does not depend on the order of the file system.
     paths = sorted(
@@ -194,7 +194,7 @@ def _listed(group: Sequence[Candidate]) -> str:
 
 
 def _corrected(clear: Sequence[_Clear], unclear: list[Left]) -> Iterator[_Clear]:
-    """Yield the sets without those of volume 1 where the same motion is there as volume 2."""
+    """Yield the sets without those of volume 1 if the same motion exists as volume 2."""
     volumes = [(longer, _VOLUME.search(group[0].file)) for _, longer, group in clear]
     corrected = {longer for longer, volume in volumes if volume and volume[1] == "2"}
     for item, (longer, volume) in zip(clear, volumes, strict=True):
@@ -205,13 +205,13 @@ def _corrected(clear: Sequence[_Clear], unclear: list[Left]) -> Iterator[_Clear]
 
 
 def _short(name: str) -> str:
-    """Return as many fields of a name as an ID holds."""
+    """Return as many fields of a name as fit in an ID."""
     ends = [field.end() for field in _FIELD.finditer(name) if field.end() <= MOST_NAME]
     return name[: max(ends, default=None)] if len(name) > MOST_NAME else name
 
 
 def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str]:
-    """Yield why a group in the order of x, y, z is not the set of a motion."""
+    """Yield reasons why a group in the order x, y, z is not the set of a motion."""
     level = [channel for channel in group if channel.is_horizontal]
     if (len(level), len(group)) not in ((2, 3), (2, 2 if without_vertical else 3)):
         counts = f"{len(level)} horizontal and {len(group) - len(level)} vertical of one motion"
@@ -239,7 +239,7 @@ def _unclear(group: Sequence[Candidate], without_vertical: bool) -> Iterator[str
 
 
 def _channels(file: str, motion_file: MotionFile) -> Sequence[Candidate]:
-    """Return the channels of a file; raise where the component of one is not clear."""
+    """Return the channels of a file; raise if the component of one is ambiguous."""
     channels = []
     is_alone = len(motion_file.channels) == 1
     for record in motion_file.channels:

@@ -1,4 +1,4 @@
-"""Files from elsewhere, stored in a folder of their own: a browser's uploads, zips of records.
+"""Untrusted files, stored in a folder of their own: browser uploads, zips of records.
 
 Sizes, names and zips are checked here. Read `store`, then `unpack`.
 """
@@ -30,10 +30,10 @@ File = tuple[str, IO[bytes]]
 
 
 def store(files: Sequence[File], folder: Path) -> Path:
-    """Store what was sent in an empty folder, and return the workbook among it.
+    """Store uploaded files in an empty folder, and return the workbook among them.
 
-    Each file has its relative path; a zip is the only one. What is refused is an input error, and
-    the folder may then hold a part of the files.
+    Each file has its relative path; a zip is the only one. Rejected files raise an input error; the
+    folder may then contain some of the files.
     """
     if not files:
         raise InputError("no file was uploaded; drop the workbook together with its records")
@@ -101,7 +101,7 @@ class _Room:
         self.paths.append(target)
 
     def _check_spelling(self, path: PurePosixPath, *, is_written: bool) -> None:
-        """Refuse a path that other systems would take for another one."""
+        """Reject a path that other systems would confuse with another one."""
         for part in (path, *path.parents):
             # macOS takes letters with their accents apart, and Windows does not tell capitals.
             key = unicodedata.normalize("NFC", str(part)).casefold()
@@ -113,7 +113,7 @@ class _Room:
 
 
 def _unpack(content: IO[bytes], room: _Room, below: str = "") -> None:
-    """Write the files of a zip; refuse a link, and what is encrypted or damaged."""
+    """Write the files of a zip; reject links and encrypted or damaged files."""
     archive = zip_of(content, "the zip is damaged or not a zip; create it again")
     # Some programs of Windows write backslashes.
     named = [(info.filename.replace("\\", "/"), info) for info in archive.infolist()]

@@ -1,4 +1,4 @@
-"""What the file computes with, as JSON: results.json, the motions as run, and the kernels.
+"""Data that the file computes with, as JSON: results.json, the motions as run, the kernels.
 
 Read `data`.
 """
@@ -22,7 +22,7 @@ _PER_G = 1e5
 
 
 def data(assessment: Assessment, results: bytes) -> str:
-    """Return the data of the file; no `<` in it ends the element that it stands in."""
+    """Return the data of the file; no `<` in it closes the enclosing element."""
     arrays = assessment.project.arrays
     document = {
         "results": _packed(results),
@@ -41,7 +41,7 @@ def _packed(content: bytes) -> str:
 
 
 def _motions(motions: Sequence[Motion]) -> dict[str, Any]:
-    """Return the samples of all motions, to the last bit."""
+    """Return the samples of all motions, bit for bit."""
     parts = [(motion.ax_mps2, motion.ay_mps2, motion.az_mps2) for motion in motions]
     samples = np.concatenate([part for each in parts for part in each])
     counts = np.round(samples / STANDARD_GRAVITY_MPS2 * _PER_G)

@@ -1,4 +1,4 @@
-"""The package as one file that a browser opens by itself, without a server or a network.
+"""The package as one file that a browser opens without a server or a network.
 
 Its sections are those of the package, as the PDF has them: it computes nothing. Read `page`.
 """
@@ -53,7 +53,7 @@ class FileSection(NamedTuple):
 def page(package: str, assessment: Assessment, fingerprint: str, results: bytes) -> bytes:
     """Return the file, from the HTML of the package and results.json.
 
-    Where it would be too large it computes nothing, and says so.
+    If it would be too large, it computes nothing and states this.
     """
     run_data = data(assessment, results) if assessment.has_motions else ""
     made = _page(package, assessment, fingerprint, run_data)
@@ -93,7 +93,7 @@ def _page(package: str, assessment: Assessment, fingerprint: str, run_data: str)
 
 
 def _script(name: str) -> str:
-    """Return a module with all that it imports as one script: each is a function of its own."""
+    """Return a module with everything it imports as one script: each module is a function."""
     modules: dict[str, str] = {}
 
     def add(name: str) -> None:

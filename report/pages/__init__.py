@@ -1,1 +1,1 @@
-"""What the pages of the package print, part by part; their words are in the templates."""
+"""Contents of the pages of the package, part by part; their text is in the templates."""

@@ -24,7 +24,7 @@ _STRENGTHS = (("Arias intensity, m/s", 2, "arias_mps"), ("D5-95, s", 1, "d5_95_s
 
 
 def acceptance_table(package: PackageData) -> Table:
-    """Return every limit on the motions: found, limit, where, OK or what follows."""
+    """Return every limit on the motions: found, limit, location, OK or consequence."""
 
     columns = by_place(
         words("Limit", 4.4),

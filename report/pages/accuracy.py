@@ -34,7 +34,7 @@ from solver.sliding.model_selection import Model
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return the errors, what friction changes, the margins, and what is not part of the design."""
+    """Return the errors, the effect of friction, the margins, and results outside the design."""
     accuracy, uncertainty, sums = evidence.accuracy, evidence.uncertainty, evidence.cumulative
     if uncertainty is None:
         raise DefectError("a package without motions has no page on margins")
@@ -66,7 +66,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 
 def _error(run: OrientedRun) -> str:
-    """Return what is known of the numerical error of a run."""
+    """Return the text on the numerical error of a run."""
     result, model = run.result, run.solution.model
     if result.status is Status.UPLIFT:
         return "the block lifts off the roof; no displacement and no error are reported"

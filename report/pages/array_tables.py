@@ -79,7 +79,7 @@ def letter_table(package: PackageData) -> Table:
 
 
 def comparison_table(package: PackageData) -> Table:
-    """Return the displacements of each array by either route."""
+    """Return the displacements of each array by either procedure."""
     arrays = package.assessment.arrays
     columns: list[Column] = [
         (words("Array", 1.1), lambda item: item.id),
@@ -153,7 +153,7 @@ def models_used(item: ArrayAssessment) -> str:
 
 
 def governing_name(done: Assessment, item: ArrayAssessment) -> str:
-    """Return what is across the governing gap of an array, and where no clearance is given that."""
+    """Return the item across the governing gap of an array, or that no clearance is entered."""
     gap = done.governing_gap(item.id)
     if gap is None:
         return "none entered"
@@ -168,7 +168,7 @@ def ratio_words(done: Assessment, item: ArrayAssessment) -> str:
 
 
 def _gap_cells(gap: ComparedGap | None) -> tuple[float, float, str, tuple[Show, Show]]:
-    """Return what is provided and required [m], the mark of the latter, and how they are shown."""
+    """Return the provided and required separation [m], the mark of the latter, and their format."""
     if gap is None:
         return math.nan, math.nan, "", (no_more, no_less)
     return gap.provided_m, gap.required_m, gap.mark, gap.shows
@@ -186,6 +186,6 @@ def _keep_clear(done: Assessment, item: ArrayAssessment) -> str:
 
 
 def _cause(done: Assessment, item: ArrayAssessment) -> str:
-    """Return the cause of a verdict NG that no number beside it shows."""
+    """Return the cause of a verdict NG that is not visible from the numbers next to it."""
     cause = unshown_cause(done, item)
     return f" {cause}" if cause and not done.array_verdict(item).is_permitted else ""

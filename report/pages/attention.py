@@ -1,4 +1,4 @@
-"""What of an assessment needs attention, NG first: for the terminal, JSON and the browser page."""
+"""Items of an assessment that need attention, NG first: for terminal, JSON and browser page."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from solver.rules.limit import Consequence
 
 
 def attention(assessment: Assessment, *, may_run: bool = True) -> Iterator[tuple[str, str]]:
-    """Yield what is not satisfied, NG first, and what would do, with runs or not; each its level.
+    """Yield unsatisfied items, NG first, and remedies, with runs or not; each with its level.
 
     Levels are NG, remedy, condition, note and warning.
     """

@@ -1,4 +1,4 @@
-"""The basis and the limits of the method: provisions, what is excluded, and the validation."""
+"""The basis and the limits of the method: provisions, exclusions and validation."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from report.text.validation import VALIDATION
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return what the page says, by whether there are motions."""
+    """Return the contents of the page, depending on whether there are motions."""
     done, data = package.assessment, package.data
     motions = [run.motion for run in done.governing.motions]
     turned = []

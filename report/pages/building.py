@@ -39,7 +39,7 @@ class _Transferred:
 def building_part(
     package: PackageData, variations: Sequence[tuple[BuildingInput, AnalysisValue]]
 ) -> Mapping[str, object]:
-    """Return what is said of the building, its modes, and what other ones would give."""
+    """Return the text on the building, its modes, and the results with variations."""
     shaking, building, fmt = package.assessment.shaking, package.data.building, package.fmt
     components = []
     for motion, prepared in zip(shaking.motions, shaking.prepared, strict=True):

@@ -1,4 +1,4 @@
-"""What changed since a former revision."""
+"""Changes since a previous revision."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _COLUMNS = ("Type", 1.2), ("Quantity", 2.6), ("Cell", 1.1), ("Before", 2.2), ("N
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the former revision, and the changes as a table."""
+    """Return the previous revision, and the changes as a table."""
     changes = package.changes
     rows = [
         (item.kind.value, item.title, item.cell, item.before, item.now) for item in changes.items

@@ -1,6 +1,7 @@
 """The checks of a project as a package prints them: the first sheet's two tables, and all of them.
 
-Owns no check and no word of one: see `report.assessment.checks`. Read `first_sheet`, then `listed`.
+Contains no check and no text of one: see `report.assessment.checks`. Read `first_sheet`, then
+`listed`.
 """
 
 from __future__ import annotations
@@ -53,10 +54,10 @@ class FirstSheet:
     n_following: int
     """NG that only follow from a design displacement that is not there."""
     largest: Sequence[Check]
-    """Of each kind of capacity that is satisfied the check with the largest ratio."""
+    """The check with the largest ratio for each type of satisfied capacity."""
     conditions: Sequence[Check]
     n_more: int = 0
-    """Conditions without room."""
+    """Conditions that do not fit."""
     has_effects: bool = True
     """Whether there is room for the effect of other inputs, which is in the comparison as well."""
     has_remedies: bool = True
@@ -64,7 +65,7 @@ class FirstSheet:
 
 
 def first_sheet(done: Assessment) -> FirstSheet:
-    """Return what is NG, the conditions, and the largest ratio of every other kind."""
+    """Return NG items, the conditions, and the largest ratio of every other type."""
     causes = failed(done)
     return FirstSheet(
         failed=causes,
@@ -75,10 +76,10 @@ def first_sheet(done: Assessment) -> FirstSheet:
 
 
 def fitted(sheet: FirstSheet, tops: Mapping[str, float], bottom: float) -> FirstSheet:
-    """Return the rows for which a sheet has room: what is NG always, then the conditions.
+    """Return the rows that fit on a sheet: NG items always, then the conditions.
 
-    `tops` are where rows begin on a sheet without end [px], by `LARGEST`, `OPEN` and their count;
-    `bottom` is where the sheet ends. The first condition is never left out.
+    `tops` are the starts of rows on an endless sheet [px], by `LARGEST`, `OPEN` and their count;
+    `bottom` is the end of the sheet. The first condition is never omitted.
     """
     over = tops[END] - bottom
     # What is below the last row of a table goes with it, but not the margin of the table.
@@ -119,7 +120,7 @@ _LINE_PX, _MARGIN_PX = 18.0, 8.0
 
 
 def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
-    """Return what the verdict on a project rests on, and where its conditions are listed."""
+    """Return the basis of the verdict on a project, and where its conditions are listed."""
     n_failed = sum(check.verdict is Verdict.NG for check in done.checks)
     n_open = sum(check.verdict is not Verdict.NG for check in done.open)
     total = len(done.checks)
@@ -138,7 +139,7 @@ def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
 
 
 def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, str]) -> Table:
-    """Return what is NG, each with what would satisfy it below, then the largest ratios."""
+    """Return NG items, each with its remedy below, then the largest ratios."""
     us_first, rows = done.project.us_first, []
     counts = Counter(check.id for check in done.checks)
     places = [*("" for _ in sheet.failed), *(f"{LARGEST}{k}" for k in range(len(sheet.largest)))]
@@ -157,7 +158,7 @@ def governing_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, s
 
 
 def condition_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, str]) -> Table:
-    """Return the conditions, each with what the project comes to if it is not met below."""
+    """Return the conditions, each with the result for the project if it is not met below."""
     us_first, rows = done.project.us_first, []
     for count, check in enumerate(sheet.conditions):
         found_text, limit_text = texts(check, us_first, is_both=False)

@@ -1,4 +1,4 @@
-"""Tables of the clearances: the schedule beside the plan, that for the field, and the neighbors.
+"""Tables of the clearances: the schedule next to the plan, the field schedule, adjacent items.
 
 Computes nothing. Each table is a list of columns over what it lists.
 """
@@ -58,7 +58,7 @@ def plan_schedule(package: PackageData, fmt: UnitFormat) -> Table:
 
 
 def field_schedule(package: PackageData) -> Table:
-    """Return the schedule of gaps that are measured in the field."""
+    """Return the schedule of clearances to be measured in the field."""
     columns: Sequence[Column] = (
         (text("No.", share=0.42), lambda gap: gap.number),
         (words("From", 0.9), lambda gap: gap.check.clearance.array),
@@ -83,7 +83,7 @@ def _listed(package: PackageData, columns: Sequence[Column], fmt: UnitFormat) ->
 
 
 def _kind(check: ClearanceCheck) -> str:
-    """Return the kind of what is across a clearance, and the direction, if it has one."""
+    """Return the type of the item across a clearance, and the direction, if it has one."""
     direction = check.clearance.direction
     toward = "" if direction is Direction.ANY else f", {direction.value}"
     return check.neighbor.value + toward

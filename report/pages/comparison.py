@@ -1,4 +1,4 @@
-"""The comparison with the prescriptive displacement: chart, table, why an array has its route.
+"""The comparison with the prescriptive displacement: chart, table, reason for each procedure.
 
     Array A1: the limits of the prescriptive procedure are satisfied, but the analysis
     displacement exceeds the prescriptive displacement.
@@ -28,7 +28,7 @@ from report.text.units import number
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return what the captions name, the table, the routes, and years where a study has them."""
+    """Return the values in captions, the table, the procedures, and years if in a study."""
     done, marks = package.assessment, package.marks
     has_floor = any(item.floor_m for item in done.arrays)
     routes = ids_by(done.arrays, lambda item: _routes(package, item))
@@ -50,7 +50,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 
 def _routes(package: PackageData, item: ArrayAssessment) -> str:
-    """Return why an array has its procedure, and whether the other would be permitted."""
+    """Return the reason for the procedure of an array, and whether the other is permitted."""
     done, given_m, analysis = package.assessment, item.prescriptive.value_m, item.analysis
     building = building_limits(done.project, done.rules)
     limits = (*item.limits.prescriptive_checks, *item.limits.checks, *building)

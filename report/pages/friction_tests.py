@@ -46,7 +46,7 @@ _STATED = (
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return what the part on friction as tested says beside its chart."""
+    """Return the text of the part on friction as tested, next to its chart."""
     data, assessment, fmt = package.data, package.assessment, package.fmt
     all_series, tests = tested(data), data.friction_tests
     reports = dict.fromkeys(series.report for series in all_series)
@@ -96,7 +96,7 @@ def _pressures(package: PackageData) -> str:
 
 
 def drawings(package: PackageData) -> Sequence[str]:
-    """Return the runs over velocity, where any reports it and an array slides at one."""
+    """Return the runs over velocity, if any reports it and an array slides."""
     from report.figures.charts import friction_by_velocity
 
     data = package.data
@@ -249,7 +249,7 @@ def _fit_words(series: Series, fit: FittedLaw) -> str:
 
 
 def _at_low_velocity(item: ArrayAssessment, as_run: ArrayAssessment, fmt: UnitFormat) -> str:
-    """Return what an array comes to with its low-velocity friction at every velocity."""
+    """Return the result for an array with its low-velocity friction at every velocity."""
     alone, with_law = fmt.both_up(item.design_m), fmt.both_up(as_run.design_m)
     refused = " (not permitted)" if item.has_unpermitted_value else ""
     instead = ", unchanged" if alone == with_law else f" instead of {with_law}"

@@ -11,7 +11,7 @@ from report.pages.parts import MOTION_ROWS, PackageData
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the record files with their hashes; what all files have alike is in a note."""
+    """Return the record files with their hashes; common values are in a note."""
     rows = package.assessment.shaking.records
     alike = _alike(rows)
     differing = [name for name in _ALIKE if name not in alike]

@@ -27,7 +27,7 @@ from solver.rules.rulesets import LowProfileLength
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the tables of the inputs, and what is said below them."""
+    """Return the tables of the inputs, and the notes below them."""
     done, data, fmt, marks = package.assessment, package.data, package.fmt, package.marks
     rules, site, n_arrays = done.rules, data.site, len(data.arrays)
     construction = ids_by(data.arrays, lambda array: (array.construction, array.mu_report))
@@ -61,7 +61,7 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 
 def _s_ds_note(site: Site) -> Markup:
-    """Return whether S_DS is computed or given, and in the latter case what it would be."""
+    """Return whether S_DS is computed or entered, and in the latter case the computed value."""
     symbols = Markup(" and ").join(map(symbol, _origin(site)))
     # In full precision: with S_DS = 1.0504 g, a separation of a permit sheet is 2.12 ft; with
     # 1.050 g it would be 2.11 ft.

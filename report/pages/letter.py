@@ -1,4 +1,4 @@
-"""The letter of results: what was analyzed, the verdict, the arrays, and the conditions of use."""
+"""The results letter: scope of the analysis, verdict, arrays, and conditions of use."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 
 def _scope(package: PackageData) -> str:
-    """Return what was done with how many arrays, up to the name of the rule set."""
+    """Return the analysis and the number of arrays, up to the name of the rule set."""
     done = package.assessment
     ids = [item.id for item in done.arrays]
     were = "was" if len(ids) == 1 else "were"
@@ -77,7 +77,7 @@ def _scope(package: PackageData) -> str:
 
 
 def _clearances(done: Assessment) -> str:
-    """Return how many of the clearances are satisfied, and how many have no row."""
+    """Return the number of satisfied clearances, and of those without a row."""
     n_missing = len(done.missing_gaps)
     count, passed = len(done.clearances) + n_missing, sum(gap.ok for gap in done.clearances)
     if not count:
@@ -99,7 +99,7 @@ def _clearances(done: Assessment) -> str:
 
 
 def _open_checks(done: Assessment, summary: str) -> str:
-    """Return how many checks are open, and as what the summary lists them."""
+    """Return the number of open checks, and how the summary lists them."""
     count = len(done.open)
     n_failed = sum(check.verdict is Verdict.NG for check in done.open)
     if not count:
@@ -117,7 +117,7 @@ def _open_checks(done: Assessment, summary: str) -> str:
 
 
 def _friction(package: PackageData) -> str:
-    """Return where the friction of each array comes from."""
+    """Return the source of the friction of each array."""
     arrays = package.data.arrays
     sources = ids_by(arrays, lambda array: (basis_words(package.data, array), array.mu_report))
     sentences = [

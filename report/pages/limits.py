@@ -1,4 +1,4 @@
-"""Limits and requirements: every check but those with tables of their own, and what would do."""
+"""Limits and requirements: every check except those with their own tables, and remedies."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from report.text.letter_case import capitalized
 
 
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
-    """Return the table of checks, the changes that would satisfy what is NG, and the warnings."""
+    """Return the table of checks, the changes that would satisfy NG items, and the warnings."""
     done = package.assessment
     motions = f" and motions ({package.part('motions')})" if done.has_motions else ""
     # A contradiction of the plan is also among the requirements.

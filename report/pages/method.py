@@ -207,7 +207,7 @@ def _strength(package: PackageData) -> Mapping[str, object]:
 
 
 def _exceeds(check: Check) -> tuple[float, float]:
-    """Return what the governing of checks has most of; one that is not given has no ratio."""
+    """Return the sort key of the governing check; a missing value has no ratio."""
     is_known = math.isfinite(check.ratio)
     return severity(check.verdict) if is_known else -1.0, check.ratio if is_known else 0.0
 

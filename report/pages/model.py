@@ -81,7 +81,7 @@ _NOT_KNOWN = Wide("not known", 4), ""
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the assumptions, the models used, what they neglect, and the checks beside them."""
+    """Return the assumptions, the models used, neglected effects, and independent checks."""
     done, data = package.assessment, package.data
     motions = [run.motion for run in done.governing.motions]
     millimeters, inches = number(1000.0 * DEFAULT.matters_m, 0), DEFAULT.matters_m / INCH_M
@@ -111,7 +111,7 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 
 def _orientations(motions: Sequence[Motion]) -> str:
-    """Return in which orientations the motions are run."""
+    """Return the orientations in which the motions are run."""
     in_two = [motion for motion in motions if motion.has_transverse]
     if not in_two:
         return (
@@ -137,7 +137,7 @@ def _orientations(motions: Sequence[Motion]) -> str:
 
 
 def _unchecked(motions: Sequence[Motion]) -> str:
-    """Return what lack of vertical components leaves unchecked; nothing if all have one."""
+    """Return the checks not possible without vertical components; nothing if all have one."""
     count = sum(motion.has_vertical for motion in motions)
     if count == len(motions):
         return ""

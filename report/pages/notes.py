@@ -1,4 +1,4 @@
-"""The notes for the construction documents: the schedules, and what must be measured first."""
+"""The notes for the construction documents: the schedules, and items to measure first."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from solver.rules.provisions import Neighbor
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the notes, the two schedules, and the gaps and parapets that they name."""
+    """Return the notes, the two schedules, and the gaps and parapets listed in them."""
     done, data, fmt = package.assessment, package.data, package.fmt
     gaps = numbered_gaps(done)
     # In the order of the clearances, each once.
@@ -66,7 +66,7 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 
 def _verdict(package: PackageData) -> str:
-    """Return what the verdict means for construction."""
+    """Return the meaning of the verdict for construction."""
     done, summary = package.assessment, package.part("summary")
     if done.verdict is Verdict.NG:
         return f"Not for construction: its verdict is NG ({summary})."

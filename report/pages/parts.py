@@ -1,4 +1,4 @@
-"""What the pages of a package are made from, and words that several pages share.
+"""Data that the pages of a package are made from, and texts shared by several pages.
 
 Owns no content: see the other `report.pages` modules. Read `PackageData`.
 """

@@ -1,7 +1,7 @@
-"""The edition letter: a letter with the table by array and the conditions, then the plan.
+"""The letter edition: a letter with the table by array and the conditions, then the plan.
 
-For a permit set: one to six arrays by the prescriptive displacement, on two sheets. What it has no
-room for is refused by `report.project.check.faults`.
+For a permit set: one to six arrays by the prescriptive displacement, on two sheets.
+`report.project.check.faults` rejects projects that do not fit.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def _separation(package: PackageData, head: str, neighbor: Neighbor) -> Column:
 
 
 def _open_checks(package: PackageData) -> Table:
-    """Return what must be met, and who acts; what is NG has its mark."""
+    """Return the open checks and who must act; NG items are marked."""
     done, data = package.assessment, package.data
     rows = []
     for check in done.open:

@@ -52,7 +52,7 @@ _APART = {Cover.SHORT, Cover.SUFFICIENT, Cover.DIFFERS}
 
 
 def page(package: PackageData) -> Mapping[str, object]:
-    """Return the tables and notes beside the plan, and how they stand around it."""
+    """Return the tables and notes next to the plan, and their arrangement."""
     done, data = package.assessment, package.data
     printed, rules = package.printed_plan, done.rules
     # In one unit, as the drawings: the tables and the plan are read side by side.
@@ -133,7 +133,7 @@ def _schedules(package: PackageData, beside: Schedule, fmt: UnitFormat) -> Mappi
 
 
 def _places(package: PackageData, fmt: UnitFormat) -> Mapping[str, object]:
-    """Return where everything is in plan, and what is placed by an outline or not at all."""
+    """Return the location of everything in plan, and items placed by an outline or not at all."""
     done, data = package.assessment, package.data
     placed: Sequence[Array | RoofObject] = (*data.arrays, *data.objects)
     across = {gap.clearance.object for gap in done.clearances}
@@ -183,7 +183,7 @@ def _numbers(gaps: Sequence[NumberedGap]) -> str:
 
 
 def _neighbors(package: PackageData, apart: Sequence[PlanNeighbor]) -> Mapping[str, object]:
-    """Return the pairs of the plan whose clearance differs from it, and what is said of others."""
+    """Return the pairs on the plan whose clearance differs from it, and the text on others."""
     done = package.assessment
     as_drawn = [
         str(row.number) for pair in done.neighbors if pair not in apart for row in pair.given

@@ -1,4 +1,4 @@
-"""The provisions behind the numbers, and what is overridden for the project."""
+"""The provisions behind the numbers, and the overrides for the project."""
 
 from __future__ import annotations
 

@@ -72,7 +72,7 @@ def _results(package: PackageData, group: _Alike) -> Mapping[str, object]:
 
 
 def _spread(array: ArrayAssessment) -> str:
-    """Return how far the motions of an array are from their mean; nothing if that is not known."""
+    """Return the spread of the motions of an array about their mean; nothing if unknown."""
     mean_m = array.analysis.mean_m
     if not mean_m > 0.0:
         return ""

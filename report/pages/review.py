@@ -1,4 +1,4 @@
-"""What peer review concerns, and what it lets exceed a limit: for the letter and the summary."""
+"""Effect of peer review, and limits exceeded with it: for the letter and the summary."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from report.assessment.design.routes import Route
 
 
 def by_analysis(done: Assessment) -> Sequence[str]:
-    """Return the arrays that take the displacement by analysis, whose floor peer review lifts."""
+    """Return the arrays that use the analysis displacement, whose floor peer review removes."""
     return [item.id for item in done.arrays if item.route is Route.ANALYSIS]
 
 
 def excepted(done: Assessment) -> Sequence[str]:
-    """Return the checks that are exceeded where the rule set permits it, in sentences."""
+    """Return the limits exceeded as permitted by the rule set, as sentences."""
     checks = alike(check for check in done.checks if check.is_excepted)
     return [sentence(check, done.project.us_first) for check in checks]

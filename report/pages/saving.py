@@ -1,4 +1,4 @@
-"""What an analysis could save where an array takes the prescriptive displacement, in sentences.
+"""Possible savings by an analysis if an array uses the prescriptive displacement, as text.
 
     With an analysis, the design displacement of all arrays could be as low as 40.8 in (1036 mm)
     instead of 81.6 in (2072 mm): without peer review, the floor is 50% of the prescriptive

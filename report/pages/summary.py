@@ -1,4 +1,4 @@
-"""The summary, what decides: verdict, arrays, the checks that govern, and the open conditions."""
+"""The summary: verdict, arrays, governing checks, and open conditions."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def page(
 
 
 def _review(package: PackageData) -> Iterator[str]:
-    """Yield what peer review lifts, of which arrays, and what it comes to without it."""
+    """Yield the effect of peer review, its arrays, and the result without it."""
     done, options = package.assessment, package.data.options
     reviewer = f"{options.peer_reviewer}, {options.peer_license}, {options.peer_date}"
     ids = by_analysis(done)
@@ -104,7 +104,7 @@ def _enough(done: Assessment, remedies: Remedies) -> str:
 
 
 def _what_if(package: PackageData, evidence: Evidence) -> Iterator[str]:
-    """Yield what another input comes to; of a condition its own row says it."""
+    """Yield the results with other inputs; for a condition, its own row states them."""
     done = package.assessment
     # Of a rule set that the jurisdiction accepts no row says it, nor of friction that tests show.
     stated = {check.otherwise for check in done.checks if check.is_open}

@@ -1,4 +1,4 @@
-"""The appendix of symbols: each with its one meaning. Read `SYMBOLS`."""
+"""The appendix of symbols, each with one meaning. Read `SYMBOLS`."""
 
 from __future__ import annotations
 

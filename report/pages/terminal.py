@@ -1,4 +1,4 @@
-"""What `roofslip report` prints of an assessment, and the same for JSON.
+"""The summary of an assessment printed by `roofslip report`, and the same for JSON.
 
 A line for each array, then what needs attention, then the verdict:
 

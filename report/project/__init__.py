@@ -1,1 +1,1 @@
-"""A project: its plain models, what Excel knows of them, and how they are read and written."""
+"""A project: its plain models, their Excel layout, reading and writing."""

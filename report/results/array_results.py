@@ -14,9 +14,9 @@ class Displacements(ResultModel):
     """The displacements of an array: by analysis, prescriptive and design."""
 
     computed_m: Number
-    """Displacement by analysis; null without one."""
+    """Analysis displacement; null without one."""
     computed_basis: Basis
-    """How the displacement by analysis follows from the peaks of the motions."""
+    """Statistic of the peaks of the motions used for the analysis displacement."""
     mean_prd_m: Number
     """Mean of the PRDs of the motions."""
     largest_prd_m: Number
@@ -26,17 +26,17 @@ class Displacements(ResultModel):
     prescriptive_m: float
     """Prescriptive displacement."""
     prescriptive_governs: PrescriptiveBasis
-    """What gives the prescriptive displacement: formula, minimum or SDC."""
+    """Basis of the prescriptive displacement: formula, minimum or SDC."""
     floor_m: float
-    """Least design displacement after an analysis; 0 where peer review removes it."""
+    """Smallest design displacement from an analysis; 0 if peer review removes this floor."""
     design_m: Number
-    """Design displacement; null where no permitted route gives one."""
+    """Design displacement; null if no permitted procedure gives one."""
     design_is_overridden: bool
     """Whether a number of the rule set behind it is overridden."""
     design_governs: DesignBasis
-    """What gives the design displacement."""
+    """Basis of the design displacement."""
     design_permitted: bool
-    """Whether the limits permit the route by which it was obtained."""
+    """Whether the limits permit the procedure used."""
 
 
 class _LowVelocityHead(ResultModel):
@@ -54,12 +54,11 @@ class TippingResult(ResultModel):
     """Tipping of an array, for the run nearest to it."""
 
     demand: Number
-    """Largest shear over normal force without slip; null where the array lifts off, and without
-    motions."""
+    """Largest shear / normal force with no slip; null with uplift, and without motions."""
     capacity: float
-    """Shear over normal force at which it begins to tip, b / (2 h)."""
+    """Shear / normal force at which the array begins to tip, b / (2 h)."""
     held_ratio: float
-    """At rest: lesser of demand and static friction coefficient / capacity."""
+    """At rest: smaller of demand and static friction coefficient / capacity."""
     sliding_ratio: float
     """While it slides: kinetic friction coefficient / capacity; 0 without slip."""
     ok: bool
@@ -70,7 +69,7 @@ class UpliftResult(ResultModel):
     """Uplift of an array, for the run with the smallest normal force."""
 
     n_min_g: Number
-    """Least normal force / weight; negative with uplift, null without motions."""
+    """Smallest normal force / weight; negative with uplift, null without motions."""
     t_first_s: Number
     """Time when the normal force first falls below zero; null if it never does."""
     duration_s: float
@@ -88,7 +87,7 @@ class PeakResult(ResultModel):
     up_m: Number
     """Upslope."""
     across_m: Number
-    """Across the slope."""
+    """Cross-slope."""
     any_m: Number
     """In any direction."""
 
@@ -116,15 +115,15 @@ class RunResult(ResultModel):
     up_m: Number
     """Largest displacement upslope."""
     across_m: Number
-    """Largest displacement across the slope."""
+    """Largest cross-slope displacement."""
     residual_across_m: Number
-    """Displacement at the end, across the slope."""
+    """Cross-slope displacement at the end."""
     t_prd_s: Number
     """Time of the PRD."""
     n_stops: int
-    """Number of times that it comes to rest."""
+    """Number of times the array comes to rest."""
     n_min_g: Number
-    """Least normal force / weight."""
+    """Smallest normal force / weight."""
     t_uplift_s: Number
     """Time of the first uplift; null without uplift."""
     end_speed_mps: Number
@@ -132,25 +131,25 @@ class RunResult(ResultModel):
     peak_speed_mps: Number
     """Largest sliding velocity."""
     error_m: Number
-    """Bound of the error of the PRD."""
+    """Error bound of the PRD."""
     rung: int
     """Number of the model used, from 0, no slip, to 5, a row of linked blocks."""
     model: str
-    """Model used, in words."""
+    """Model used, as text."""
     reason: Words
-    """Why this model is enough."""
+    """Reason why this model is adequate."""
     next_rung: int
-    """Number of the next model, run to see its effect; that of this one if none is."""
+    """Number of the more complete model, run to find its effect; of this one if there is none."""
     next_effect_m: Number
-    """Effect of the next model on the PRD."""
+    """Effect of the more complete model on the PRD."""
     friction_demand: Number
-    """Required friction coefficient: largest shear over normal force without slip."""
+    """Required friction coefficient: largest shear / normal force with no slip."""
 
 
 class _ArrayHead(ResultModel):
     id: str
     verdict: ItemVerdict
-    """Verdict on the array, with the clearances beside it."""
+    """Verdict on the array, including its clearances."""
     slope_rad: float
     """Roof slope."""
     mu: float
@@ -158,11 +157,11 @@ class _ArrayHead(ResultModel):
     friction: Friction
     """Friction law as entered."""
     friction_as_run: Words
-    """Friction coefficient in words, as printed."""
+    """Friction coefficient as printed."""
 
 
 class ArrayResult(Displacements, _ArrayHead):
-    """An array: what it is, its displacements by motion and run, its limits."""
+    """An array: properties, displacements by motion and run, limits."""
 
     peaks: tuple[PeakResult, ...]
     """Largest displacements by motion."""
@@ -171,15 +170,15 @@ class ArrayResult(Displacements, _ArrayHead):
     interconnection_n: float
     """Strength required of the connections within the array."""
     tipping: TippingResult
-    """Tipping, for the run nearest to it."""
+    """Tipping, for the run closest to it."""
     uplift: UpliftResult
-    """Uplift, for the run with the least normal force."""
+    """Uplift, for the run with the smallest normal force."""
     analysis_factor: float
-    """Factor on the mean or largest PRD in the displacement by analysis."""
+    """Factor on the mean or largest PRD in the analysis displacement."""
     takes_largest: bool
-    """Whether it is on the largest PRD, not on the mean."""
+    """Whether the factor applies to the largest PRD instead of the mean."""
     route: Route
-    """Route by which the design displacement was obtained."""
+    """Procedure used for the design displacement."""
     runs: tuple[RunResult, ...]
     """All runs."""
 
@@ -207,13 +206,13 @@ class LinkedRunResult(ResultModel):
     link_force_n: Number
     """Largest force of a link."""
     error_m: Number
-    """Bound of the error of the PRDs."""
+    """Error bound of the PRDs."""
     n_stops: int
-    """Number of times that a block comes to rest."""
+    """Number of times a block comes to rest."""
 
 
 class LinkedResult(ResultModel):
-    """An array as a row of linked blocks, beside its design as one rigid block."""
+    """An array as a row of linked blocks, compared with its design as one rigid block."""
 
     array: str
     """Id of the array."""
@@ -224,9 +223,9 @@ class LinkedResult(ResultModel):
     damping_ratio: float
     """Damping of a link / critical."""
     rigid_one_axis_m: Number
-    """Value from analysis as one block, in one axis."""
+    """Analysis displacement as one block, in one axis."""
     linked_one_axis_m: Number
-    """Value from analysis as a row, in one axis."""
+    """Analysis displacement as a row, in one axis."""
     ratio: Number
     """Row / one block."""
     design_m: Number

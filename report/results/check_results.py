@@ -1,4 +1,4 @@
-"""The rows of results.json on what is required, and on what would satisfy it."""
+"""The rows of results.json on requirements, and on changes that would satisfy them."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ class FindingResult(ResultModel):
     level: Level
     """Warning or note."""
     id: str
-    """Name by which a warning is acknowledged; empty where none can be."""
+    """Name by which a warning is acknowledged; empty if it cannot be."""
     cell: str
     """Cell of the workbook."""
     text: Words
     """What was found."""
     reason: str
-    """Why a warning is acknowledged; empty if it is not."""
+    """Reason for acknowledging a warning; empty if it is not acknowledged."""
 
 
 class CheckResult(ResultModel):
-    """A check: everything that is required, satisfied or not."""
+    """A check: one requirement, satisfied or not."""
 
     id: str
-    """Kind of check, such as `max_stories`, `clearance` or `peer_review`."""
+    """Type of check, such as `max_stories`, `clearance` or `peer_review`."""
     title: Words
     """As printed."""
     subject: str
@@ -37,9 +37,9 @@ class CheckResult(ResultModel):
     arrays: tuple[str, ...]
     """Ids of the arrays whose verdict it is part of."""
     found: Number
-    """Value found, in the unit; null where it is words, or no value."""
+    """Value found, in the unit; null if it is text or there is no value."""
     limit: Number
-    """Value required, in the unit; null where it is words."""
+    """Value required, in the unit; null if it is text."""
     unit: str
     """Unit of both; empty for a count or a ratio."""
     found_text: Words
@@ -47,37 +47,37 @@ class CheckResult(ResultModel):
     limit_text: Words
     """As printed, with its sign."""
     note: Words
-    """Where or from what it was found."""
+    """Location or derivation of the value found."""
     clause: Words
     """Section of the code with its mark, or whose practice it is."""
     is_satisfied: bool
     """Whether the project satisfies it."""
     consequence: Consequence
-    """Where it is not satisfied."""
+    """Consequence if it is not satisfied."""
     verdict: ItemVerdict
-    """Of this check alone."""
+    """Verdict on this check alone."""
     ratio: Number
-    """Demand / capacity; null for words, and where a required number is not entered."""
+    """Demand / capacity; null for text, and if a required number is not entered."""
     actor: Actor
-    """Who must act where it is not satisfied."""
+    """Party who must act if it is not satisfied."""
     remedy: Words
-    """What they must do, as a sentence; empty where it is satisfied."""
+    """Action required, as a sentence; empty if it is satisfied."""
     otherwise: Words
-    """What the project comes to if it is not met, as a sentence."""
+    """Result for the project if it is not met, as a sentence."""
     cells: tuple[str, ...]
     """Cells of the workbook."""
 
 
 class RemedyResult(ResultModel):
-    """A change that satisfies checks which are NG, or changes that are enough together."""
+    """A change that satisfies NG checks, or changes that are sufficient together."""
 
     quantities: tuple[RemedyKind, ...]
-    """What would have to change."""
+    """Quantities that would have to change."""
     checks: tuple[Words, ...]
-    """What it satisfies, as printed."""
+    """Checks that it satisfies, as printed."""
     change: Words
-    """In words."""
+    """The change as text."""
     verdict: Verdict
-    """On the project with it."""
+    """Verdict on the project with it."""
     governing: Words
-    """The same with the checks that then govern, in words."""
+    """The verdict with the checks that then govern, as text."""

@@ -1,4 +1,4 @@
-"""The rows of results.json on clearances, and on the pairs of the plan that need one."""
+"""The rows of results.json on clearances, and on pairs on the plan that require one."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ class ClearanceResult(ResultModel):
     array: str
     """Id of the array."""
     object: str
-    """Id of the array or object across it."""
+    """Id of the array or object on the other side."""
     direction: Direction
-    """Direction of the clearance from the array; any where none is entered."""
+    """Direction of the clearance from the array; any if none is entered."""
     neighbor: Neighbor
-    """Kind of neighbor, which gives the separation factor."""
+    """Type of the adjacent item, which determines the separation factor."""
     governing_array: str
     """Array whose displacement governs."""
     design_m: Number
@@ -30,7 +30,7 @@ class ClearanceResult(ResultModel):
     factor: float
     """Separation factor of the rule set, with the importance factor."""
     minimum_m: float
-    """Required separation at least, whatever the displacement; 0 for none."""
+    """Minimum of the required separation for any displacement; 0 if there is none."""
     required_m: Number
     """Required separation."""
     required_is_overridden: bool
@@ -42,20 +42,20 @@ class ClearanceResult(ResultModel):
     demand_capacity: Number
     """Required / provided separation."""
     verdict: Verdict
-    """OK, NG, or none where the required separation is not known."""
+    """OK, NG, or none if the required separation is unknown."""
 
 
 class LowVelocity(ResultModel):
-    """Arrays with their low-velocity friction coefficients alone, and clearances beside them."""
+    """Arrays with their low-velocity friction coefficients only, and their clearances."""
 
     arrays: tuple[LowVelocityResult, ...]
     """Arrays whose friction depends on velocity."""
     clearances: tuple[ClearanceResult, ...]
-    """Clearances beside them."""
+    """Clearances of these arrays."""
 
 
 class GivenResult(ResultModel):
-    """A clearance given for a neighbor."""
+    """A clearance entered for an adjacent item."""
 
     clearance: str
     """Number of the clearance."""
@@ -66,22 +66,22 @@ class GivenResult(ResultModel):
 
 
 class NeighborResult(ResultModel):
-    """What the plan shows near an array, and the clearances that cover or contradict it."""
+    """An item on the plan near an array, and the clearances that cover or contradict it."""
 
     array: str
     """Id of the array."""
     other: str
-    """Id of the array or object across the gap; words for an edge."""
+    """Id of the array or object on the other side; text for an edge."""
     kind: NearbyKind
-    """What is across the gap."""
+    """Type of item on the other side."""
     gap_m: float
-    """Least distance in plan; negative if they overlap."""
+    """Smallest distance in plan; negative if they overlap."""
     reach_m: Number
-    """Distance within which a clearance is needed."""
+    """Distance within which a clearance is required."""
     is_missing: bool
-    """Whether it is that near and has no clearance."""
+    """Whether it is within this distance and has no clearance."""
     add_to: str
-    """Cell to which a missing row is to be added."""
+    """Cell for a missing row."""
     given: tuple[GivenResult, ...]
     """Clearances between the two."""
     contradictions: tuple[str, ...]
@@ -89,4 +89,4 @@ class NeighborResult(ResultModel):
     cover: Cover
     """Whether the clearances agree with the plan; without any, whether the distance suffices."""
     what: str
-    """Kind of the object, in words; for others as `kind`."""
+    """Type of the object as text; for other items same as `kind`."""

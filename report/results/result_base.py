@@ -1,4 +1,4 @@
-"""How a row of results.json holds a number: frozen, NaN as null, printed in the units given."""
+"""Base of the rows of results.json: frozen, NaN as null, with the units of print."""
 
 from __future__ import annotations
 
@@ -41,10 +41,10 @@ class PrintedResult(ResultModel):
     """How numbers are printed."""
 
     lengths: tuple[LengthUnitResult, ...]
-    """Of displacements and separations, the preferred unit first."""
+    """Units of displacements and separations, the preferred unit first."""
     ratio_decimals: int
     """Decimals of a ratio."""
     rounded_up: tuple[str, ...]
-    """Keys of what is required, and of demands, which are rounded up."""
+    """Keys of required values and demands, which are rounded up."""
     rounded_down: tuple[str, ...]
-    """Keys of what is provided, which are rounded down; all other keys to the nearest."""
+    """Keys of provided values, which are rounded down; all other keys to the nearest."""

@@ -39,7 +39,7 @@ class Results(ResultModel):
     s_ds_g: float
     """S_DS used."""
     sdc_is_confirmed: bool
-    """Whether the workbook states all that the seismic design category needs."""
+    """Whether the workbook contains everything needed for the seismic design category."""
     rule_set: str
     """Name of the rule set."""
     printed: PrintedResult
@@ -51,19 +51,19 @@ class Results(ResultModel):
     findings: tuple[FindingResult, ...]
     """Warnings and notes on the input."""
     checks: tuple[CheckResult, ...] = ()
-    """Everything that is required, satisfied or not; version 0.3 wrote none."""
+    """All requirements, satisfied or not; not written by version 0.3."""
     arrays: tuple[ArrayResult, ...]
     """Arrays in the order of the workbook."""
     clearances: tuple[ClearanceResult, ...]
     """Clearances in the order of the workbook."""
     low_velocity: LowVelocity
-    """The same with friction at low velocity alone."""
+    """The same with low-velocity friction only."""
     linked: tuple[LinkedResult, ...]
     """Arrays as rows of linked blocks."""
     neighbors: tuple[NeighborResult, ...]
     """Pairs in plan that are near or have a clearance."""
     remedies: tuple[RemedyResult, ...]
-    """Changes that would satisfy what is NG."""
+    """Changes that would satisfy NG checks."""
     certainty: UncertaintyResult | None
     """Margins in friction, slope and direction; null without motions."""
     cumulative: tuple[CumulativeResult, ...]
@@ -74,7 +74,7 @@ class Results(ResultModel):
 
 
 class Compared(ResultModel):
-    """What a later revision is compared with: keys of `Results`."""
+    """Data that a later revision is compared with: keys of `Results`."""
 
     roofslip_version: str
     records: tuple[RecordResult, ...]

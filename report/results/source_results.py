@@ -1,4 +1,4 @@
-"""The rows of results.json on what was read: workbook, records, documents and motions."""
+"""The rows of results.json on the input files: workbook, records, documents and motions."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class RecordResult(ResultModel):
     name: str
     format: str
     notes: tuple[Words, ...]
-    """What was read or assumed beyond the plain numbers."""
+    """Notes on what was read or assumed beyond the numbers."""
     sha256: str
     npts: int
     """Number of samples."""
@@ -50,10 +50,10 @@ class DocumentResult(ResultModel):
 
 
 class RoofResult(ResultModel):
-    """A component of a ground motion, carried to the roof."""
+    """A component of a ground motion, transferred to the roof."""
 
     words: Words
-    """The building in words."""
+    """Description of the building."""
     n_modes: int
     """Number of modes included."""
     next_mode_share: float
@@ -88,4 +88,4 @@ class MotionResult(ResultModel):
     components: Mapping[str, Measures]
     """Measures of each component."""
     building: Mapping[str, RoofResult]
-    """How each component was carried to the roof; empty for roof motions."""
+    """Transfer of each component to the roof; empty for roof motions."""

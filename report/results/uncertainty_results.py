@@ -1,4 +1,4 @@
-"""The rows of results.json on what is not known exactly, and what it changes."""
+"""The rows of results.json on uncertain inputs and their effect."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ class MarginResult(ResultModel):
     mu: float
     """Friction coefficient entered."""
     least_mu: Number
-    """Least friction coefficient at which the clearance is satisfied."""
+    """Lowest friction coefficient at which the clearance is satisfied."""
     lowest_mu_tried: Number
     """Friction coefficient at which the search ends."""
     is_beyond: bool
     """Whether the clearance is satisfied throughout."""
     required_m: Number
-    """Required separation at the least friction coefficient."""
+    """Required separation at the lowest friction coefficient."""
 
 
 class TurnedResult(ResultModel):
-    """A run with the horizontal components turned."""
+    """A run with the horizontal components rotated."""
 
     angle_deg: float
     """Angle of the pair, counterclockwise; at 0 the record acts downslope."""
@@ -46,7 +46,7 @@ class AnglesResult(ResultModel):
     prd_m: Number
     """PRD used for the design."""
     turned: tuple[TurnedResult, ...]
-    """Runs with the pair turned."""
+    """Runs with the pair rotated."""
     vertical_reversed_prd_m: Number
     """PRD with the vertical component reversed; null without one."""
 
@@ -85,4 +85,4 @@ class VariationResult(ResultModel):
     largest_m: Number
     """Largest PRD."""
     value_m: Number
-    """Value from analysis."""
+    """Analysis displacement."""

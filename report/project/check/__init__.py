@@ -1,1 +1,1 @@
-"""Whether what is filled in makes sense: required cells, cells that contradict, the unusual."""
+"""Checks of the input: required cells, contradictory cells, unusual values."""

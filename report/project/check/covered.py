@@ -1,4 +1,4 @@
-"""What each confirmation covered: its date with a short hash of each sheet, in the cell beside it.
+"""Record of each confirmation: its date with a short hash of each sheet, in the cell next to it.
 
 Beside the date of review, `2026-03-01: Site 3f2a91, Arrays 01b03f`: once a cell of Arrays is
 another one, the review is not of these inputs.
@@ -69,7 +69,7 @@ COVERED = frozenset(covered for *_, covered, _ in CONFIRMATIONS)
 
 
 def to_record(data: ProjectInput, records: Sequence[str]) -> Mapping[Place, str]:
-    """Return what confirmations cover whose date is not on record, by cell; records with hashes."""
+    """Return the records of confirmations whose date is not yet recorded, by cell, with hashes."""
     return {
         place: f"{date}: {', '.join(f'{sheet} {short}' for sheet, short in hashes.items())}"
         for place, date, recorded, hashes, _ in _dated(data, records)
@@ -78,7 +78,7 @@ def to_record(data: ProjectInput, records: Sequence[str]) -> Mapping[Place, str]
 
 
 def outdated(data: ProjectInput, records: Sequence[str]) -> ProjectInput:
-    """Return an input that knows which sheets have changed since a confirmation covered them."""
+    """Return an input with the sheets that have changed since a confirmation covered them."""
     changed = {}
     for place, _, recorded, hashes, earlier in _dated(data, records):
         then = dict(part.rpartition(" ")[::2] for part in recorded.split(", "))
@@ -97,7 +97,7 @@ def _changed(then: _Hashes, hashes: _Hashes) -> Sequence[str]:
 def _dated(
     data: ProjectInput, records: Sequence[str]
 ) -> Iterator[tuple[Place, dt.date, str, _Hashes, _Hashes]]:
-    """Yield the cell and date of each confirmation, what is on record of it, and the hashes now.
+    """Yield the cell and date of each confirmation, its record, and the current hashes.
 
     Last, the hashes as 0.3 recorded them.
     """
@@ -122,7 +122,7 @@ def _hashes(
     *,
     is_sorted: bool = True,
 ) -> _Hashes:
-    """Return the hash of what is covered, by sheet."""
+    """Return the hash of the covered inputs, by sheet."""
     lines: dict[str, list[str]] = {}
     for key, fields in covers.items():
         rows = getattr(data, key) if SECTION[key].is_table else [getattr(data, key)]

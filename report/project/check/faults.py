@@ -1,6 +1,6 @@
 """All faults of an input that involve more than one cell; each names the cell to change.
 
-Works on the values that could be read, so that one invalid cell hides no other fault.
+Works on the readable values, so that one invalid cell hides no other fault.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ def _friction(index: int, row: InputRow) -> Iterator[Finding]:
 
 
 def _unknown(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    """Yield names of what is in no table; `plan_faults` has those of outlines."""
+    """Yield names that are in no table; `plan_faults` checks those of outlines."""
     for (section, field), tables in REFERENCES.items():
         if section == "outlines":
             continue
@@ -141,7 +141,7 @@ MOST_IN_LETTER = 6
 
 
 def _letter_edition(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    """Yield what the two sheets of the edition letter have no place for."""
+    """Yield inputs that do not fit on the two sheets of the letter edition."""
     n_arrays = len(inputs["arrays"])
     remedy = "choose plan check or complete, or delete what the letter cannot contain"
     for place, edition in column(inputs, ("options",), "package_edition"):
@@ -242,7 +242,7 @@ REQUIRED: Mapping[tuple[str, str], tuple[Condition, str]] = {
 
 
 def missing(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    """Yield the cells that are required by others, and blank."""
+    """Yield blank cells that are required by others."""
     for (section, field), (is_required, remedy) in REQUIRED.items():
         for index, row in enumerate(inputs[section]):
             # What could not be read is not blank, and has an error of its own.

@@ -74,7 +74,7 @@ def listed(names: Iterable[str], limit: int = MOST_LISTED) -> str:
 
 
 def acknowledged(data: ProjectInput, findings: Iterable[Finding]) -> tuple[Finding, ...]:
-    """Return findings in the order of the template, each with the reason that the sheet gives."""
+    """Return findings in the order of the template, each with the reason in the workbook."""
     all_findings = tuple(findings)
     reasons = {_key(row.warning): row.reason for row in data.acknowledged}
     answered = [

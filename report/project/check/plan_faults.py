@@ -1,4 +1,4 @@
-"""Faults of the roof plan: outlines, what is off the roof or overlaps, clearances unlike it."""
+"""Faults of the roof plan: outlines, items off the roof or overlapping, wrong clearances."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _EDGES = (ObjectKind.EDGE_WITH_PARAPET, ObjectKind.EDGE_WITHOUT_PARAPET)
 
 
 def plan_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    """Yield what is wrong with the shapes in plan."""
+    """Yield the faults of the shapes in plan."""
     yield from _rectangles(inputs, where)
     yield from _outline_rows(inputs, where)
     yield from _doubled(inputs, where)
@@ -106,7 +106,7 @@ def spot(point: Point, is_us: bool) -> str:
 
 
 def _scattered(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    """Yield the rows at which an outline goes on after rows of another one."""
+    """Yield the rows at which an outline continues after rows of another one."""
     last: dict[str, int] = {}
     for index, row in enumerate(inputs["outlines"]):
         name = row.get("name")
@@ -227,13 +227,13 @@ GAP_TOLERANCES_M = (0.5 * INCH_M, 0.99 * INCH_M)
 
 
 def gap_tolerance_m(gap_m: float) -> float:
-    """Return how far a clearance may be from the gap of the plan [m]."""
+    """Return the permitted difference of a clearance from the gap on the plan [m]."""
     low, high = GAP_TOLERANCES_M
     return min(max(GAP_TOLERANCE * gap_m, low), high)
 
 
 def clearance_faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
-    """Yield clearances that are given twice, to the array itself, or as more than in plan."""
+    """Yield clearances that are listed twice, to the array itself, or larger than on the plan."""
     fields = ("array", "object", "direction")
     rows = enumerate(inputs["clearances"])
     named = ((Place("clearances", i, "array"), tuple(map(row.get, fields))) for i, row in rows)

@@ -1,4 +1,4 @@
-"""The shapes in plan of what could be read: rectangles and outlines."""
+"""The shapes in plan of all readable inputs: rectangles and outlines."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _sides(row: Place, where: Where) -> str:
 
 
 def shape_of(row: InputRow, outline: OutlineRows | None) -> Shape | None:
-    """Return the rectangle of a row or the polygon of its outline; None for what is neither."""
+    """Return the rectangle of a row or the polygon of its outline; None if it is neither."""
     if outline is not None:
         points = ring(outline.vertices)
         is_ring = len(points) >= LEAST_VERTICES and crossing(points) is None
@@ -113,7 +113,7 @@ LEAST_FAR_M, FAR_M = 30.0, 500.0
 def far_off(
     shapes: Mapping[str, Shape], roof: Shape | None, is_us: bool
 ) -> Iterator[tuple[str, str]]:
-    """Yield what lies far from the roof, or else from the largest shape, with a question."""
+    """Yield items far from the roof, or else from the largest shape, with a question."""
     if not shapes:
         return
     largest = max(shapes, key=lambda name: shapes[name].area_m2)

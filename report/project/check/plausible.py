@@ -1,4 +1,4 @@
-"""Warnings on values that are permitted and improbable, or outside their usual range.
+"""Warnings on values that are permitted but improbable, or outside their typical range.
 
 Reads no record: `report.motions.prepare` does. Read `implausible`.
 """
@@ -56,7 +56,7 @@ _FROM_DOWNSLOPE_DEG: Mapping[Direction, tuple[float, ...]] = {
 
 
 def implausible(data: ProjectInput) -> Iterator[Finding]:
-    """Yield a warning for each value that is permitted and improbable, one for a cell."""
+    """Yield a warning for each value that is permitted but improbable, one per cell."""
     short = _short_of_plan(data)
     findings = [*_contradictory(data), *_provided(data, short)]
     warned = {finding.place for finding in findings if finding.level is Level.WARNING}
@@ -265,7 +265,7 @@ def _provided(data: ProjectInput, short: Mapping[int, float]) -> Iterator[Findin
 
 
 def _mistaken(provided_m: float, gap: float) -> tuple[float, str]:
-    """Return how many times too small a clearance is, and the unit it may be in; 1 for none."""
+    """Return the factor by which a clearance is too small, and its likely unit; 1 if none."""
     # As where feet are typed into a column of inches; what is too large is an error.
     for unit, size in LENGTHS.items():
         for read in LENGTHS.values():
@@ -280,7 +280,7 @@ ROUNDING = 1e-9
 
 @cache
 def _ranged(section: SheetSection) -> Sequence[tuple[Entry, float, float]]:
-    """Return the fields of a section with a usual range, and its ends."""
+    """Return the fields of a section with a typical range, and its ends."""
     return [
         (entry, entry.expected.low * (1.0 - ROUNDING), entry.expected.high * (1.0 + ROUNDING))
         for entry in section.entries
@@ -289,7 +289,7 @@ def _ranged(section: SheetSection) -> Sequence[tuple[Entry, float, float]]:
 
 
 def unusual(data: ProjectInput) -> Iterator[Finding]:
-    """Yield a warning for each number outside its usual range."""
+    """Yield a warning for each number outside its typical range."""
     is_us = data.us_first
     for section in SECTIONS:
         rows = getattr(data, section.key)
@@ -317,7 +317,7 @@ def _warning(section: SheetSection, index: int, entry: Entry, row: Frozen, is_us
 
 
 def _named(row: Frozen) -> str:
-    """Return by what a row of a table is known; nothing for single cells."""
+    """Return the identifier of a row of a table; nothing for single cells."""
     match row:
         case Array() | RoofObject() | MotionInput():
             return row.id
@@ -329,6 +329,6 @@ def _named(row: Frozen) -> str:
 
 
 def spoken(row: Clearance) -> str:
-    """Return a clearance in words."""
+    """Return a clearance as text."""
     where = "" if row.direction is Direction.ANY else f" {row.direction}"
     return f"{row.array} to {row.object}{where}"

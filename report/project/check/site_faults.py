@@ -133,7 +133,7 @@ def _site_class(row: InputRow, edition: Edition) -> Iterator[Finding]:
 def _below_table(
     row: InputRow, edition: Edition, chain: _Chain, table: CoefficientTable, where: Where
 ) -> Iterator[Finding]:
-    """Yield what is below that of the mapped value, the site class and the table of its edition."""
+    """Yield values below those of the mapped value, the site class and the table of its edition."""
     # A given coefficient is compared with the table, and `_agreement` compares the rest with it.
     (mapped, symbol), (coefficient, factor), maximum, design = chain
     mapped_g, entered = row.get(mapped), row.get(coefficient)

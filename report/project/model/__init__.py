@@ -1,7 +1,7 @@
-"""The input of a project as plain frozen models, in SI or in the unit that a name ends with.
+"""The input of a project as plain frozen models, in SI or in the unit at the end of a name.
 
-No Excel in them: what a cell is called, and what is typed there, is in `report.project.workbook`.
-They are pydantic's, for `model_copy`, JSON and the types that a value of any source must have.
+They contain no Excel: names and contents of cells are in `report.project.workbook`. They are
+pydantic models, for `model_copy`, JSON and validated types.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class ProjectInput(Frozen):
     layers: tuple[DrawingLayer, ...] = ()
     acknowledged: tuple[Acknowledgment, ...] = ()
     changed_sheets: Annotated[tuple[tuple[str, str], ...], Field(exclude=True)] = ()
-    """Each section whose confirmation is outdated, with the sheets that changed, in words."""
+    """Each section whose confirmation is outdated, with the changed sheets as text."""
 
     @model_validator(mode="after")
     def _linked(self) -> ProjectInput:
@@ -104,7 +104,7 @@ class ProjectInput(Frozen):
 
     @property
     def outdated(self) -> Mapping[str, str]:
-        """By section, in words, the sheets that have changed since its confirmation."""
+        """By section, the sheets that have changed since its confirmation, as text."""
         return dict(self.changed_sheets)
 
     @property
@@ -116,7 +116,7 @@ class ProjectInput(Frozen):
 
     @property
     def confirmed(self) -> str:
-        """Who confirmed the provisions of these inputs, and when; empty where nobody did."""
+        """Who confirmed the provisions of these inputs, and when; empty if not confirmed."""
         confirmation = self.confirmation
         is_of_these = "confirmation" not in self.outdated and confirmation.of == self.site.adopted
         is_dated = confirmation.date is not None and confirmation.date <= self.project.date
@@ -124,7 +124,7 @@ class ProjectInput(Frozen):
 
     @property
     def shapes(self) -> dict[str, Shape]:
-        """The arrays and the objects that have a place in plan, by id."""
+        """The arrays and the objects with a location in plan, by id."""
         shapes: dict[str, Shape] = {item.id: item.placed for item in self.objects if item.placed}
         return shapes | {array.id: array.shape for array in self.arrays}
 

@@ -48,7 +48,7 @@ def slope_rad(value: float, unit: SlopeUnit) -> float:
 def friction_law(
     mu: float, mu_fast: float | None, rate_s_per_m: float | None, mu_static: float | None
 ) -> Friction:
-    """Return a friction law; what is not given is as the coefficient says."""
+    """Return a friction law; missing values are those of the coefficient."""
     return Friction(
         mu_slow=mu,
         mu_fast=mu if mu_fast is None else mu_fast,
@@ -62,7 +62,7 @@ WEIGHT_PARTS = ("modules", "module_weight_n", "ballast_n")
 
 
 def weight_of_parts(row: InputRow) -> float | None:
-    """Return the weight [N] of modules and ballast, where they are given."""
+    """Return the weight [N] of modules and ballast, if entered."""
     modules, each_n, ballast_n = (row.get(part) for part in WEIGHT_PARTS)
     if modules is None or each_n is None or ballast_n is None:
         return None
@@ -105,7 +105,7 @@ class Array(Placed):
 
     @property
     def parts_n(self) -> float | None:
-        """Weight of modules and ballast [N], where they are given."""
+        """Weight of modules and ballast [N], if entered."""
         return weight_of_parts(dict(self))
 
     @property
@@ -131,7 +131,7 @@ class Array(Placed):
 
     @property
     def base_dimension_m(self) -> float:
-        """Least plan dimension of the supporting base [m]; where not given, support spacing."""
+        """Smallest plan dimension of the supporting base [m]; if not entered, support spacing."""
         return self.support_spacing_m if self.base_m is None else self.base_m
 
     @property

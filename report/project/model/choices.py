@@ -23,7 +23,7 @@ FORMER_CHOICES = {
 
 
 class _Choice(StrEnum):
-    """A choice that is also read by its word in earlier workbooks."""
+    """A choice that is also read by its name in earlier workbooks."""
 
     @classmethod
     def _missing_(cls, value: object) -> Self | None:
@@ -129,7 +129,7 @@ class SlopeUnit(StrEnum):
 
 
 class LayerKind(_Choice):
-    """What the closed lines on a layer of a roof drawing are."""
+    """Content of the closed lines on a layer of a roof drawing."""
 
     ARRAY = "array"
     FIXED = "fixed object"
@@ -141,7 +141,7 @@ class LayerKind(_Choice):
 
 
 class ObjectKind(_Choice):
-    """What an array could strike or fall from."""
+    """Type of item that an array could strike or fall from."""
 
     FIXED = "fixed object"
     UNLIKE_ARRAY = "array of different construction"
@@ -159,7 +159,7 @@ class Direction(_Choice):
 
 
 class ClearanceSource(StrEnum):
-    """Where the distance of a clearance comes from, as the workbook states it."""
+    """Source of the distance of a clearance, as entered in the workbook."""
 
     MEASURED = "measured"
     DRAWING = "drawing"
@@ -226,7 +226,7 @@ class Polarity(StrEnum):
 
 
 class PackageEdition(StrEnum):
-    """What a package holds."""
+    """Contents of a package."""
 
     PLAN_CHECK = "plan check"
     COMPLETE = "complete"

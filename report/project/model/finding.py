@@ -1,4 +1,4 @@
-"""What is found in a workbook: an error, or what is permitted and perhaps not meant."""
+"""Findings on a workbook: an error, or a value that is permitted but perhaps unintended."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Level(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
-    """Something in a workbook that is refused, or permitted and perhaps not meant."""
+    """An item in a workbook that is rejected, or permitted but perhaps unintended."""
 
     level: Level
     place: Place  # the cell to look at
@@ -32,7 +32,7 @@ class Finding:
 
     @classmethod
     def error(cls, place: Place, text: str, remedy: str = "") -> Finding:
-        """Return an input error: what was found, and what would be accepted."""
+        """Return an input error: what was found, and what is accepted."""
         return cls(level=Level.ERROR, place=place, text=text, remedy=remedy)
 
     def problem(self, where: str) -> Problem:

@@ -15,7 +15,7 @@ Mu = Annotated[float, Field(ge=0.0, le=MOST_MU)]
 
 
 class FrictionTests(Frozen):
-    """What the report on the friction tests states."""
+    """Data of the friction test report."""
 
     laboratory: Text = ""
     accreditation: Text = ""

@@ -42,7 +42,7 @@ def column(inputs: Inputs, sections: Iterable[str], field: str) -> Iterator[tupl
 def repeated(
     cells: Iterable[tuple[Place, Any]], key: Callable[[Any], Hashable] = lambda value: value
 ) -> Iterator[tuple[Place, Any, Place]]:
-    """Yield place and value of what is given again, and the place at which it was given first."""
+    """Yield place and value of repeated entries, and the place of the first one."""
     places: dict[Hashable, Place] = {}
     for place, value in cells:
         first = places.setdefault(key(value), place)
@@ -51,7 +51,7 @@ def repeated(
 
 
 def suggestion(value: str, ids: Collection[str]) -> str:
-    """Return in words which id may have been meant, or which there are."""
+    """Return text on the id that may have been meant, or on the existing ones."""
     same = next((name for name in ids if looks(name) == looks(value)), "")
     # Letters of two alphabets may look alike, so that the list would show the same name again.
     foreign = same and (foreign_letters(value) or foreign_letters(same))

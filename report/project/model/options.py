@@ -1,4 +1,4 @@
-"""What the engineer decides of a project: options, and what is confirmed and acknowledged."""
+"""Decisions of the engineer on a project: options, confirmations, acknowledged warnings."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ class Options(Frozen):
 
     @property
     def has_review(self) -> bool:
-        """Whether peer review is stated with all that a plan checker asks for."""
+        """Whether peer review is entered with everything required by a plan checker."""
         parts = self.peer_reviewer, self.peer_license, self.peer_date, self.peer_letter
         return self.peer_reviewed and all(parts)
 
     @property
     def smaller_factors(self) -> tuple[float, ...]:
-        """Factors on the motions for the smaller events; empty if none are asked for."""
+        """Factors on the motions for the smaller events; empty if none are requested."""
         return factors(self.smaller_events)
 
 
@@ -64,12 +64,12 @@ class Confirmation(Frozen):
 
     @property
     def of(self) -> tuple[str, str, str]:
-        """What was confirmed: rule set, edition and building code."""
+        """The confirmed documents: rule set, edition and building code."""
         return self.rule_set or "", self.edition or "", self.code
 
 
 class Acknowledgment(Frozen):
-    """A warning that is intended as it is, with the reason that the package prints."""
+    """An accepted warning, with the reason that the package prints."""
 
     warning: RequiredText
     reason: RequiredText

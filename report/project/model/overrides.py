@@ -1,4 +1,4 @@
-"""Numbers of the rule set that a project replaces, by the names of their provisions."""
+"""Numbers of the rule set replaced for a project, by the names of their provisions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from solver.rules.rulesets import ALLOWED
 
 
 def provision_name(key: str) -> str:
-    """Return the name of a provision in words, as on the Provisions worksheet; without its unit."""
+    """Return the name of a provision as on the Provisions worksheet, without its unit."""
     words = ALLOWED[key].meaning.partition(" [")[0]
     return words[:1].upper() + words[1:]
 

@@ -53,7 +53,7 @@ class Vertex(Frozen):
 
 
 class DrawingLayer(Frozen):
-    """A layer of a roof drawing, and what is drawn on it."""
+    """A layer of a roof drawing, and its content."""
 
     layer: RequiredText
     kind: LayerKind

@@ -1,7 +1,7 @@
 """Shapes in roof plan: rectangles and polygons, the gap between two, and the points where it is.
 
 Knows no sheet and no workbook. Two rectangles take closed forms: shapely, which takes 0.09 s to
-load, is imported where another shape asks for it.
+load, is imported only for other shapes.
 """
 
 from __future__ import annotations
@@ -290,7 +290,7 @@ def solid(shape: Shape) -> Any:
 
 
 class Placed(Frozen):
-    """What has a place in roof plan: by the four sides of a rectangle, or by an outline."""
+    """An item with a location in roof plan: by the four sides of a rectangle, or by an outline."""
 
     outline_m: Annotated[tuple[Point, ...], Field(exclude=True)] = ()
     """Vertices of an outline in place of the rectangle: rows of another table."""

@@ -100,7 +100,7 @@ class Site(Frozen):
 
     @property
     def assumed_class(self) -> SiteClass:
-        """The site class, D by default where none is given."""
+        """The site class, D by default if none is entered."""
         return site_class_or_default(self.site_class)
 
     @property
@@ -115,12 +115,12 @@ class Site(Frozen):
 
     @property
     def sdc_lacks(self) -> tuple[str, ...]:
-        """What the SDC depends on and is not given."""
+        """Missing inputs that the SDC depends on."""
         return category_lacks(dict(self))
 
     @property
     def sdc_mark(self) -> str:
-        """What follows a printed SDC without S_1 or S_D1, where it depends on it."""
+        """Remark after a printed SDC without S_1 or S_D1, if it depends on them."""
         return " (not confirmed)" if self.sdc_lacks else ""
 
     @property
@@ -135,12 +135,12 @@ class Site(Frozen):
 
 
 def edition_of(rule_set: RuleSetName, name: EditionName | None) -> Edition:
-    """Return the edition of the seismic parameters: as given, or else that of the rule set."""
+    """Return the edition of the seismic parameters: as entered, or else that of the rule set."""
     return EDITIONS[RULE_SETS[rule_set].edition if name is None else name]
 
 
 def site_class_or_default(site_class: SiteClass | None) -> SiteClass:
-    """Return a site class, D by default where none is given."""
+    """Return a site class, D by default if none is entered."""
     return SiteClass.D_DEFAULT if site_class is None else site_class
 
 
@@ -168,7 +168,7 @@ def _parameters(edition: Edition, row: InputRow) -> SeismicParameters:
 
 
 def categories(row: InputRow) -> tuple[str, str, str]:
-    """Return the SDC of a row by S_DS, by S_D1 and by S_1; empty where it cannot be known."""
+    """Return the SDC of a row by S_DS, by S_D1 and by S_1; empty if it cannot be determined."""
     parameters, risk_category = site_parameters(row), row.get("risk_category")
     if parameters is None or parameters.s_ds is None or risk_category is None:
         return "", "", ""
@@ -181,7 +181,7 @@ def categories(row: InputRow) -> tuple[str, str, str]:
 
 
 def category_lacks(row: InputRow) -> tuple[str, ...]:
-    """Return the symbols without which the SDC of a row does not follow from its S_DS."""
+    """Return the missing symbols that prevent the SDC of a row from being determined."""
     by_s_ds, by_s_d1, by_s_1 = categories(row)
     by_s_d1 = by_s_d1 or row["s_d1_g"]  # without S_DS it gives none yet
     # The tables end at D, and S_1 from 0.75 g on leads beyond them: there S_D1 changes nothing.
@@ -203,7 +203,7 @@ def least_category(row: InputRow) -> Sdc | None:
 
 
 def tabulated_f_a(row: InputRow) -> float | None:
-    """Return F_a of its table where S_MS follows from it; None where that is site-specific."""
+    """Return F_a of its table if S_MS is based on it; None if that is site-specific."""
     edition, fields = edition_of_row(row), ("s_s_g", "site_class", "hazard", "s_ms_g", "s_ds_g")
     # ASCE 7-22 has no F_a: its S_MS is read off for a site class.
     if edition is None or edition.name != F_A.edition or not row.keys() >= {*fields}:

@@ -1,6 +1,6 @@
 """Opens an untrusted workbook, or reports why it cannot be used.
 
-Owns every check that must precede openpyxl: file type, sizes, and that each sheet is a part of the
+Makes every check that must precede openpyxl: file type, sizes, and that each sheet is a part of the
 file; `scan` checks the content of the parts. Read `report.project.read.read` next.
 """
 
@@ -101,7 +101,7 @@ def open_book(path: Path) -> OpenBook:
 
 
 def book_of(path: Path, data: bytes) -> OpenBook:
-    """Open a workbook from the content that its file has, or will have; raises as `open_book`."""
+    """Open a workbook from the content of its file, existing or future; raises as `open_book`."""
     # Sizes before anything is unpacked, and the scan before openpyxl makes objects of the parts.
     with _zip(data) as archive:
         _check_sizes(archive)
@@ -143,7 +143,7 @@ def located(path: Path) -> Path:
 
 
 def _workbook_in(*folders: Path) -> str:
-    """Ask for the workbooks of the first folder that has some, or name one of another kind."""
+    """Suggest the workbooks of the first folder that has any, or name one of another type."""
     for folder in filter(Path.is_dir, folders):
         # Excel puts ~$NAME beside a workbook that is open.
         files = sorted(file for file in folder.iterdir() if not file.name.startswith("~$"))

@@ -72,7 +72,7 @@ class Found:
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing that can be seen was typed."""
+        """Whether nothing visible was typed."""
         blank = self.value is None or (isinstance(self.value, str) and not trimmed(self.value))
         return blank and not self.formula
 
@@ -83,7 +83,7 @@ class Found:
 
     @property
     def text(self) -> str:
-        """What was typed, for the echo; for a formula, with its value."""
+        """The typed content, for the echo; for a formula, with its value."""
         return f"{self.formula} → {self.shown}" if self.formula else self.shown
 
 
@@ -121,7 +121,7 @@ def as_used(value: object, entry: Entry, unit: str) -> str:
 
 
 def stated_unit(entry: Entry, row: Mapping[str, Any], cells: Mapping[str, Found]) -> str:
-    """Return what another cell states of the unit of a number; empty for nothing."""
+    """Return the unit of a number stated in another cell; empty if none."""
     if entry.unit_from is None:
         return ""
     name, unit_of = entry.unit_from
@@ -171,7 +171,7 @@ def read_cell(cell: Found, entry: Entry, unit: str, si: float, stated: str = "")
 
 
 def blank_value(entry: Entry, row: Mapping[str, Any]) -> Any:
-    """Return what a blank cell stands for, by the fields of its row that were read before it."""
+    """Return the value of a blank cell, from the fields of its row that were read before it."""
     value = entry.computed(row) if entry.computed else None
     return entry.default if value is None else value
 
@@ -190,7 +190,7 @@ def check_saved(cell: Found) -> None:
 
 
 def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
-    """Return what a field accepts: `give a number from 0 to 1.5`."""
+    """Return the accepted input of a field: `enter a number from 0 to 1.5`."""
     if entry.choices:
         return f"choose {', '.join(entry.choices[:-1])} or {entry.choices[-1]}"
     if entry.kind in (int, float):
@@ -207,7 +207,7 @@ def wish(entry: Entry, unit: str = "", si: float = 1.0) -> str:
 
 
 def wish_for_missing(entry: Entry, unit: str = "", si: float = 1.0) -> str:
-    """Return what to write where nothing is: as `wish`, and for a text an example of it."""
+    """Return the input for a blank cell: same as `wish`, and for text an example."""
     is_text = entry.kind is str and not entry.choices
     return f"enter text such as '{entry.example}'" if is_text else wish(entry, unit, si)
 

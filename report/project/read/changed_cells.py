@@ -1,4 +1,4 @@
-"""Changes cells of a workbook within the parts of its file, and leaves all else as it is.
+"""Changes cells of a workbook within the parts of its file, and leaves everything else unchanged.
 
 Formats, cached values, formulas, sketches and charts stay, which a load and save would lose. Read
 `changed`.
@@ -54,7 +54,7 @@ def changed(
 
     None leaves a cell blank; each keeps its format, or takes that of another one of its sheet by
     `looks`. Stale formulas lose their values, which LibreOffice would keep. It need not be
-    calculated again where no formula refers to the cells.
+    recalculated if no formula refers to the cells.
 
     Raises `InputError` if a sheet is missing or damaged, or a cell shares its formula.
     """
@@ -159,7 +159,7 @@ def _fill(title: str, sheet: Any, cells: _Cells) -> bool:
 
 
 def _is_needed_elsewhere(place: _Place, formulas: Mapping[_Place, Any], cells: _Cells) -> bool:
-    """Whether the formula of a cell is also that of cells which are not changed."""
+    """Whether the formula of a cell is shared with cells that are not changed."""
     formula = formulas[place]
     reach = formula.get("ref", "")
     if formula.get("t") != "shared":

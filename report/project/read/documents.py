@@ -1,4 +1,4 @@
-"""Files beside a workbook: which of them it may access, and the documents that it attaches."""
+"""Files next to a workbook: which ones it may access, and the documents that it attaches."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ MOST_LISTED = 2_000
 def path_beside(
     folder: Path, name: str, max_bytes: int, example: str, taken: Iterable[str] = ()
 ) -> Path:
-    """Return the file of a name within the workbook's folder; names that are taken are not meant.
+    """Return the file of a name within the workbook's folder; names in use are not suggested.
 
     Raises `InputError` if it is outside the folder, also by a link, is no file, or is too large.
     """
@@ -76,7 +76,7 @@ def _as_spelled(path: Path) -> Path:
 
 
 def _meant(folder: Path, name: str, taken: Iterable[str]) -> str:
-    """Ask for the file whose name nearly fits, in the named folder or one of the workbook's."""
+    """Suggest the file with a similar name, in the named folder or one of the workbook's."""
     asked = PurePosixPath(name)
     near = islice(chain((folder / asked).parent.glob("*"), folder.glob("*/*")), MOST_LISTED)
     by_stem = grouped_by((path for path in near if path.is_file()), lambda path: path.stem)
@@ -101,7 +101,7 @@ DOCUMENTS = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Document:
-    """A document beside the workbook, which the package attaches."""
+    """A document next to the workbook that the package attaches."""
 
     label: str  # of its cell
     path: str  # from the folder of the workbook
@@ -111,7 +111,7 @@ class Document:
 
 
 def read_documents(book: OpenBook, inputs: Inputs) -> tuple[tuple[Document, ...], list[Finding]]:
-    """Return the documents that a workbook attaches, and what is wrong with them."""
+    """Return the documents that a workbook attaches, and their problems."""
     documents: list[Document] = []
     faults: list[Finding] = []
     for section, field in DOCUMENTS:

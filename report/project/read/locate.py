@@ -1,4 +1,4 @@
-"""Finds the inputs of a workbook by what they are called, wherever a user has moved them.
+"""Finds the inputs of a workbook by name, wherever a user has moved them.
 
 A table by its headings and their units, a single input by its defined name or its label.
 """
@@ -347,7 +347,7 @@ def _found(
 
 
 def gone_cells(book: OpenBook, section: SheetSection) -> Iterator[tuple[GoneInput, CellPosition]]:
-    """Yield the cells that a block of an earlier workbook has for inputs that are no more."""
+    """Yield the cells of a block of an earlier workbook for inputs that no longer exist."""
     for gone in GONE.get(section.key, ()):
         position = _found(book, section, gone.field, {label_key(gone.label)})
         if position:
@@ -355,7 +355,7 @@ def gone_cells(book: OpenBook, section: SheetSection) -> Iterator[tuple[GoneInpu
 
 
 def _labels(book: OpenBook, section: SheetSection) -> Iterator[tuple[CellPosition, str]]:
-    """Yield what may be a label of a block, from its sheets."""
+    """Yield cells that may be a label of a block, from its sheets."""
     titles = [section.sheet_of(entry.name) for entry in section.entries]
     for title in dict.fromkeys(titles):
         for sheet in sheets_titled(book, title):

@@ -1,4 +1,4 @@
-"""Number formats of cells: what they show of a number, and in which unit."""
+"""Number formats of cells: digits shown, and unit."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class _Section:
 
 
 def misleading(code: str, unit: str) -> str:
-    """Return how a format shows a number as another, such as `in mm`; empty for its own unit."""
+    """Return how a format misrepresents a number, such as `in mm`; empty for its own unit."""
     # The fourth section is that of text.
     return next(filter(None, (_misleading(part, unit) for part in _sections(code)[:3])), "")
 
@@ -100,7 +100,7 @@ def _misleading(section: _Section, unit: str) -> str:
 
 @lru_cache(maxsize=256)
 def unit_named(word: str) -> str:
-    """Return the symbol of a unit, of whatever name; empty if it is none."""
+    """Return the symbol of a unit from any of its names; empty if it is not a unit."""
     plain = word.replace("²", "2").replace("³", "3")
     parts = [_single(part) for part in re.split(r"[/·*-]", plain)]
     return "/".join(parts) if all(parts) else ""

@@ -1,4 +1,4 @@
-"""Cells of a workbook by position, and what their labels and names say.
+"""Cells of a workbook by position, with their labels and names.
 
 Knows no input; `locate` finds them with it.
 """
@@ -64,7 +64,7 @@ def found_at(book: OpenBook, position: CellPosition) -> Found:
 
 
 def check_uncovered(book: OpenBook, *positions: CellPosition) -> None:
-    """Raise InputError for the cells that merged ones cover: what was typed there is lost."""
+    """Raise InputError for cells covered by merged ones: entries there are lost."""
     problems = []
     for position in positions:
         sheet = book.book[position.sheet]
@@ -146,7 +146,7 @@ def bounds_of(reference: str | None) -> tuple[int, int, int, int] | None:
 
 
 def label_key(text: object) -> str:
-    """Return a label in the form that is compared: no unit, asterisk, case or extra spaces."""
+    """Return a label in the form for comparison: no unit, asterisk, case or extra spaces."""
     # The template marks a required label with an asterisk.
     return " ".join(heading_parts(text)[0].replace("*", " ").split()).casefold()
 
@@ -158,13 +158,13 @@ def heading_parts(text: object) -> tuple[str, str]:
 
 
 def labels_of(entry: Entry) -> set[str]:
-    """Return the label of a field and its earlier label, in the form that is compared."""
+    """Return the label of a field and its earlier label, in the form for comparison."""
     return {label_key(label) for label in (entry.heading, entry.former) if label}
 
 
 @cache
 def fields_by_label(section: SheetSection) -> Mapping[str, Entry]:
-    """Return the fields of a section by each of their labels, in the form that is compared."""
+    """Return the fields of a section by each of their labels, in the form for comparison."""
     fields: dict[str, Entry] = {}
     for entry in section.entries:
         fields |= dict.fromkeys(labels_of(entry), entry)
@@ -172,7 +172,7 @@ def fields_by_label(section: SheetSection) -> Mapping[str, Entry]:
 
 
 def unit_size(entry: Entry, unit: str, where: str = "") -> tuple[str, float]:
-    """Return a unit's symbol and its size in SI; raise InputError where a field accepts it not."""
+    """Return a unit's symbol and its size in SI; raise InputError if a field does not accept it."""
     fixed = "" if entry.quantity else str(entry.unit)
     accepted = entry.quantity.accepted if entry.quantity else {fixed: 1.0}
     if not entry.quantity and not unit:

@@ -82,7 +82,7 @@ def read_book(book: OpenBook) -> Sheet:
 
 
 def without_motions(sheet: Sheet) -> ProjectInput:
-    """Return the input, whatever its motions are; its clearances may contradict the plan."""
+    """Return the input regardless of its motions; its clearances may contradict the plan."""
     fields, rows = len(SECTION["clearances"].entries), sheet.inputs["clearances"]
     # A contradiction has all of its cells.
     passed = {"motions"} | ({"clearances"} if all(len(row) == fields for row in rows) else set())
@@ -154,7 +154,7 @@ def read_as(
 
 @dataclass(slots=True)
 class Gathered:
-    """What has been read so far; problems have the place used for sorting."""
+    """The input read so far; problems have the place used for sorting."""
 
     inputs: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
     echo: list[EchoRow] = field(default_factory=list)
@@ -216,7 +216,7 @@ def _read_block(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
 
 
 def _refuse_gone(gone: GoneInput, place: Place, cell: Found, gathered: Gathered) -> None:
-    """Add a problem for an input that is no more, unless its cell asks for nothing."""
+    """Add a problem for an input that no longer exists, unless its cell has no effect."""
     answer = trimmed(cell.shown)
     if not cell.is_blank and answer.casefold() not in gone.defaults:
         text = f"{lowered(gone.label)} is '{cut(answer)}'"
@@ -265,7 +265,7 @@ def _read_table(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
 
 @dataclass(frozen=True, slots=True)
 class _Typed:
-    """What is typed for an input, and the unit of it."""
+    """The typed value of an input, and its unit."""
 
     entry: Entry
     place: Place
@@ -274,7 +274,7 @@ class _Typed:
 
     @property
     def is_computed(self) -> bool:
-        """Whether other inputs give what is left blank."""
+        """Whether a blank cell is computed from other inputs."""
         return self.cell.is_blank and self.entry.computed is not None
 
 

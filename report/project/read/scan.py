@@ -1,7 +1,7 @@
 """Scans the XML of a workbook's parts before openpyxl makes objects of them.
 
-Bounds what they would cost, and gathers what openpyxl does not keep: formulas beside values, the
-cell that sets the extent of a sheet, and how the workbook was calculated. Read `archive` first.
+Limits their cost, and collects data that openpyxl does not keep: formulas with values, the cell
+that sets the extent of a sheet, and how the workbook was calculated. Read `archive` first.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ class Scan(ContentHandler):
     _column: int = 0
 
     def startElement(self, name: str, attrs: Any) -> None:  # noqa: N802
-        """Count the element, and keep what it says of the sheet."""
+        """Count the element, and keep its data on the sheet."""
         element = name.rpartition(":")[2]
         self.budget.take(element, attrs.get("sqref", ""))
         match element:

@@ -1,6 +1,6 @@
 """Numbers, dates and choices as people type them.
 
-Knows no cells (`report.project.read.cells`, which says what would do where there is none).
+Knows no cells (`report.project.read.cells`, which states the remedy if there is no value).
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ def with_point(text: str, separated_by: str) -> str:
 
 
 def choice_in(text: str, choices: Iterable[str]) -> str:
-    """Return the choice that a text is, but for capitals, blanks, hyphens and brackets."""
+    """Return the choice equal to a text except for capitals, blanks, hyphens and brackets."""
     return next((choice for choice in choices if _bare(choice) == _bare(text)), "")
 
 

@@ -1,4 +1,4 @@
-"""What a reader of a workbook may not see: hidden cells, copies of sheets, previous values.
+"""Content of a workbook that a reader may not see: hidden cells, copied sheets, old values.
 
 Read `unseen`, and `warnings` for what is said of it.
 """
@@ -41,7 +41,7 @@ _MOST_FILTERS = 50
 
 
 class Concealment(StrEnum):
-    """How a cell is kept from sight, as the echo prints it."""
+    """How a cell is hidden, as printed in the echo."""
 
     SHEET = "hidden sheet"
     HIDDEN = "hidden"
@@ -68,7 +68,7 @@ _STATES = {"hidden": "hidden", "veryHidden": "hidden so that the menu of Excel d
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unseen:
-    """Cells of a sheet that are read and kept from sight in one way."""
+    """Cells of a sheet that are read but hidden in one way."""
 
     kind: Concealment
     sheet: str
@@ -93,7 +93,7 @@ class Unseen:
 
 
 def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
-    """Return what is read and kept from sight, one for each sheet and kind."""
+    """Return hidden cells that are read, one item for each sheet and way of hiding."""
     sights: dict[str, _Sight] = {}
     by_sheet: dict[tuple[str, Concealment], list[tuple[Place, tuple[int, int]]]] = {}
     for place, cell in used:
@@ -115,7 +115,7 @@ def unseen(book: OpenBook, used: Used) -> tuple[Unseen, ...]:
 
 
 def by_cell(unseen_cells: Iterable[Unseen]) -> Mapping[str, str]:
-    """Return in words how each cell is kept from sight, by its address."""
+    """Return how each cell is hidden, as text by its address."""
     words: dict[str, str] = {}
     for unseen in unseen_cells:
         for row, column in unseen.cells:
@@ -172,7 +172,7 @@ def _runs(numbers: Iterable[int]) -> Iterator[tuple[int, int]]:
 
 
 class _Sight:
-    """What a sheet hides; what it says of a style is looked up once."""
+    """The hidden cells of a sheet; each style is looked up once."""
 
     def __init__(self, sheet: Worksheet) -> None:
         self._sheet = sheet
@@ -191,7 +191,7 @@ class _Sight:
         self._styles: dict[int, Sequence[Concealment]] = {}
 
     def kinds(self, row: int, column: int, content: Found) -> Sequence[Concealment]:
-        """Return how a cell is kept from sight."""
+        """Return how a cell is hidden."""
         of_place = self._of_place(row, column)
         cell = self._sheet.cell(row, column)
         if not cell.has_style:

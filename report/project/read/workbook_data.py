@@ -46,7 +46,7 @@ IGNORED = "not an input, ignored"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkbookSource:
-    """What a package says of the workbook that a project was read from."""
+    """Data in a package on the workbook that a project was read from."""
 
     path: Path
     sha256: str  # of the workbook
@@ -85,7 +85,7 @@ class SheetOf(WorkbookSource, Generic[Whole]):
 
     @property
     def source(self) -> WorkbookSource:
-        """What a package says of the workbook, without its file and its inputs."""
+        """Data in a package on the workbook, without its file and its inputs."""
         return WorkbookSource(
             **{key.name: getattr(self, key.name) for key in fields(WorkbookSource)}
         )
@@ -107,7 +107,7 @@ class SheetOf(WorkbookSource, Generic[Whole]):
         Raises
         ------
         InputError
-            For a part or a value that a workbook may not have, and for each problem of this one.
+            For a part or a value not permitted in a workbook, and for each problem of this one.
         """
         self.refuse(())
         sections, inputs = {part.key: part for part in self.sections}, dict(self.inputs)

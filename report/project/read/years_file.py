@@ -1,4 +1,4 @@
-"""years.json of a study: what arrays see in their life; lengths in meters, null for none."""
+"""years.json of a study: service-life results of arrays; lengths in meters, null for none."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class _Written(BaseModel):
 
 
 class Distance(_Written):
-    """A distance from the installed place over lives, as in `LifeStatistics`."""
+    """A distance from the installed location over lives, as in `LifeStatistics`."""
 
     mean_m: Meters
     p95_m: Meters

@@ -1,4 +1,4 @@
-"""What Excel knows of a project: the sections of its sheets, each a list of inputs.
+"""The Excel layout of a project: the sections of its worksheets, each a list of inputs.
 
 An input has heading, field, example, unit and note; read, write and check work from these lists.
 """

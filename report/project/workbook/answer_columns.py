@@ -1,4 +1,4 @@
-"""The live formulas beside the inputs: what the package will compute, while the sheet is filled.
+"""The live formulas next to the inputs: results of the package while the workbook is filled in.
 
 Each formula repeats a function of `solver.rules` or `report.assessment` in cells, which a test
 compares: at most 20 different ones, each shorter than 250 characters. Only functions of Excel 2007
@@ -110,7 +110,7 @@ def decimals_format(unit: Unit) -> str:
 
 
 def _times(unit: Unit) -> str:
-    """Return what inches are multiplied by for a length in a unit: nothing, or `*25.4`."""
+    """Return the factor from inches to a unit as text: nothing, or `*25.4`."""
     factor = f"{INCH_M / unit.si:.12g}"
     return "" if factor == "1" else f"*{factor}"
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GoneInput:
-    """An input that earlier workbooks have: it is no more, and refused where it asks for something.
+    """An input of earlier workbooks that no longer exists; rejected if it has an effect.
 
-    A blank cell asks for nothing, nor does a default.
+    A blank cell or a default has no effect.
     """
 
     field: str  # with which its defined name ends

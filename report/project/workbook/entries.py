@@ -1,4 +1,4 @@
-"""What Excel knows of an input: heading, unit, note, example; blocks and tables of inputs.
+"""The Excel side of an input: heading, unit, note, example; blocks and tables of inputs.
 
 The type of a value and its allowed range are those of the field of the model.
 """
@@ -36,7 +36,7 @@ class Bounds:
         return is_above and (value < self.high if self.excludes_high else value <= self.high)
 
     def words(self, si_per_unit: float = 1.0) -> str:
-        """Return the range in words, in a unit: `0 to 1.5`, `greater than 0`; empty for any."""
+        """Return the range as text, in a unit: `0 to 1.5`, `greater than 0`; empty if unlimited."""
         low, high = (f"{bound / si_per_unit:.6g}" for bound in (self.low, self.high))
         if math.isinf(self.low) and math.isinf(self.high):
             return ""
@@ -105,7 +105,7 @@ class Entry:
 
     @property
     def or_zero(self) -> str:
-        """What may be typed for 0, after the numbers that are accepted."""
+        """Text that may be typed for 0, after the accepted numbers."""
         return f", or {self.zero}" if self.zero else ""
 
     @property
@@ -115,7 +115,7 @@ class Entry:
 
     @property
     def needed(self) -> str:
-        """Whether it is required, in words."""
+        """Whether it is required, as text."""
         return self.need or ("required" if self.is_required else "optional")
 
     @property
@@ -143,7 +143,7 @@ class Entry:
 
 
 def of_model(entry: Entry, model: type[Frozen]) -> Entry:
-    """Return an entry with what its model says of the field."""
+    """Return an entry with the data of its model field."""
     info = model.model_fields[entry.name]
     constraints = list(info.metadata)
     kind: Any = info.annotation
@@ -228,7 +228,7 @@ def section(
     *entries: Entry,
     **traits: bool,
 ) -> SheetSection:
-    """Return a part of the workbook, its entries with what the model says of their fields."""
+    """Return a part of the workbook, its entries with the data of their model fields."""
     return SheetSection(
         key=key,
         sheet=sheet,

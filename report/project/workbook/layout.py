@@ -1,4 +1,4 @@
-"""Where the template has put the fields and the answers, and how formulas refer to them."""
+"""Locations of the fields and the answers in the template, and references to them."""
 
 from __future__ import annotations
 

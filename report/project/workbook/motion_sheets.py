@@ -1,4 +1,4 @@
-"""The sheets of the motions: Motions, Building, Spectrum and Links."""
+"""The worksheets of the motions: Motions, Building, Spectrum and Links."""
 
 from __future__ import annotations
 

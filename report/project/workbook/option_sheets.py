@@ -1,4 +1,4 @@
-"""The sheets Options and Acknowledged."""
+"""The Options and Acknowledged worksheets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The sheets of what is on the roof: Building, Arrays, Objects, Clearances, Outlines, Layers."""
+"""The worksheets of the roof: Building, Arrays, Objects, Clearances, Outlines, Layers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The sheets Project, Site and Friction tests: their inputs, one to a cell or to a column."""
+"""The Project, Site and Friction tests worksheets: their inputs, one per cell or column."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Fills cells of a workbook, and is the one way in which a command changes one. Read `changing`."""
+"""Writes cells of a workbook; the only way for a command to change one. Read `changing`."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ _OPEN_ELSEWHERE = ("~${}", ".~lock.{}#")
 
 @dataclass
 class WorkbookChange:
-    """A workbook that is being changed, and files that are written beside it by their names."""
+    """A workbook that is being changed, and files to write next to it, by name."""
 
     book: OpenBook
     files: dict[str, bytes] = field(default_factory=dict)
@@ -98,7 +98,7 @@ class WorkbookChange:
         return self.tables[key]
 
     def position(self, key: str, row: int, name: str) -> CellPosition:
-        """Return where a field of a row of a table is."""
+        """Return the position of a field of a row of a table."""
         table = self.table(key)
         if name not in table.columns:
             label = SECTION[key].entry(name).heading
@@ -180,10 +180,9 @@ class WorkbookChange:
 
 @contextmanager
 def changing(source: Path, *, keeps_copy: bool = True) -> Iterator[WorkbookChange]:
-    """Give a workbook to change, as it is once no other command changes it; write it at the end.
-
-    It and the files beside it are written together, with `NAME.before.xlsx`, the workbook as it
-    was, unless no copy is kept; nothing is written if the work on it fails, or changes nothing.
+    """Provide a workbook to change, once no other command is changing it; write it at the end. It
+    and the files next to it are written together, with `NAME.before.xlsx`, the workbook as it was,
+    unless no copy is kept; nothing is written if the work on it fails, or changes nothing.
 
     Raises `InputError` if the workbook cannot be read or written, or a program has it open.
     """
@@ -282,7 +281,7 @@ def _area(reference: str, title: str) -> tuple[str, tuple[int, int, int, int] | 
 
 
 def withdrawn(change: WorkbookChange) -> list[str]:
-    """Empty who confirmed the distances from the drawing, and when, if they changed; say so."""
+    """Clear the confirmation of the distances from the drawing if they changed; report it."""
     before = change.sheet_before
     row = before.inputs["project"][0] if before.inputs["project"] else {}
     fields = ("drawing_confirmed_by", "drawing_confirmed_date", "drawing_covered")

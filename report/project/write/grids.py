@@ -142,7 +142,7 @@ class GridColumn:
 
 
 def columns_of(section: SheetSection, units: UnitsFirst) -> list[GridColumn]:
-    """Return the columns of a table: what is always needed, the answers, what is rarely needed."""
+    """Return the columns of a table: regular ones, answers, seldom-used ones."""
     fields = []
     for entry in section.entries:
         unit = entry.unit_in(is_us=units.is_us)
@@ -224,7 +224,7 @@ def _write_column(
 
 
 def _fold(sheet: Worksheet, columns: Sequence[GridColumn], rows: Sequence[Frozen]) -> None:
-    """Group the columns that are rarely needed; those without a value are closed."""
+    """Group the seldom-used columns; those without a value are collapsed."""
     folded = [(count, c) for count, c in enumerate(columns, start=FIRST) if c.is_folded]
     used = set()
     for _, column in folded:

@@ -1,4 +1,4 @@
-"""The sheet Tables: what the formulas of a workbook look up."""
+"""The Tables worksheet: lookup tables for the formulas of a workbook."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Blue cells whose formula is gone."""
+"""Blue cells whose formula was overwritten."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The sheet Provisions: every number of the rule sets, with its source and confidence."""
+"""The Provisions worksheet: every number of the rule sets, with its source and confidence."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ def _write_rule(sheet: Worksheet, overrides: layout.TablePlace, row: int, key: s
 
 
 def _write_in_use(sheet: Worksheet, overrides: layout.TablePlace, row: int, key: str) -> None:
-    """Write what governs: an override, or else the value of the rule set."""
+    """Write the governing value: an override, or else the value of the rule set."""
     override = f"INDEX({overrides.all('value')},MATCH($A{row},{overrides.all('provision')},0))"
     of_rules = f"INDEX(${_FROM}{row}:${_TO}{row},MATCH(site_rule_set,rule_sets,0))"
     style.put_answer(sheet.cell(row, 3), f'IFERROR({override},IFERROR({of_rules},""))')

@@ -1,4 +1,4 @@
-"""The sheet Start: answers, steps, links, a picture, the colors."""
+"""The Start worksheet: answers, steps, links, a picture, the colors."""
 
 from __future__ import annotations
 

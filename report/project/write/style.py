@@ -140,7 +140,7 @@ def style_input(cell: Any, kind: type[Any]) -> None:
 
 
 def make_plain_when_filled(sheet: Worksheet, cells: str) -> None:
-    """Have the input cells of a range lose their color once something is typed."""
+    """Make the input cells of a range lose their color once something is typed."""
     first, _, _ = cells.partition(":")
     # Relative to the first cell of the range, as formulas of conditional formats are: each cell
     # asks of itself.

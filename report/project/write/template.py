@@ -1,6 +1,6 @@
 """Writes the input workbook from its sections, blank or filled in.
 
-`grids` writes blocks and tables, `style` owns their appearance, `answer_columns` the formulas.
+`grids` writes blocks and tables, `style` defines their appearance, `answer_columns` the formulas.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def saved(book: Workbook, units: UnitsFirst) -> bytes:
 
 
 def mark_sheets(book: Workbook, example: object) -> None:
-    """Color the tab of each sheet by the need for it; hide those rarely needed and empty."""
+    """Color the tab of each worksheet by its need; hide seldom-used empty ones."""
     for sheet in book.worksheets:
         sections = [section for section in SECTIONS if section.sheet == sheet.title]
         fill = style.OPTIONAL_FILL if sections else style.HELP_FILL
