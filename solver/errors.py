@@ -27,7 +27,7 @@ class Problem:
 
     @classmethod
     def of(cls, line: str) -> Problem:
-        """Return a problem that is written `what was found; what would do`."""
+        """Return the problem of a text `found; remedy`."""
         # At the first semicolon: a remedy may have others.
         fault, _, remedy = line.partition("; ")
         return cls(fault, remedy)

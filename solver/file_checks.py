@@ -86,7 +86,7 @@ def within(folder: Path, name: str) -> Path:
 
 
 def _wrong(name: str, parts: Sequence[str]) -> str:
-    """Return what is wrong with a path and what would do; empty if nothing is."""
+    """Return the problem with a path and its remedy; empty if there is none."""
     # A name of bytes that are no UTF-8 has surrogates in Python, which would not encode otherwise.
     longest = max(len(part.encode(errors="surrogatepass")) for part in parts)
     if len(name) > _MOST_NAME or longest > _MOST_BYTES:

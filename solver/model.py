@@ -232,7 +232,7 @@ class Friction:
 
     @property
     def is_monotone(self) -> bool:
-        """Whether it never decreases with velocity, starting from rest: then errors cannot grow."""
+        """Whether it never decreases with velocity, from rest on, so that errors cannot grow."""
         # Friction is then a monotone operator of velocity: the difference of the velocities of two
         # blocks never increases (Brezis, cited in `solver.kernels.two_axes.slide_plane`).
         return self.mu_fast >= self.mu_slow and self.mu_static == self.mu_slow

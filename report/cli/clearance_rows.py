@@ -29,7 +29,7 @@ def fill_clearances(project: Path) -> None:
 
 
 def add_clearances(change: WorkbookChange) -> Sequence[str]:
-    """Add the rows of clearances that a workbook lacks; return what to print of them."""
+    """Add the missing rows of clearances to a workbook; return the lines to print."""
     # After `plan read` in the same change, the plan that it filled in counts, not the one on disk.
     sheet = read_book(change.book) if change.written else change.sheet_before
     not_run: list[str] = []

@@ -66,7 +66,7 @@ def package(
 
 
 def show(made: Made) -> None:
-    """Print the summary of a package and its files; last the verdict, with the package."""
+    """Print the summary of a package and its files; the verdict with the package is last."""
     # The last lines are what is still on the screen after many findings and paths.
     *lines, verdict = summaries.summary(made.assessment)
     for line in lines:

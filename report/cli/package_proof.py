@@ -42,7 +42,7 @@ _ANSWERS = {
 def prove(
     file: Path, *, records: Path | None, out: Path | None, quiet: bool, as_json: bool
 ) -> None:
-    """Print whether the input in a package gives this package, and exit by the answer."""
+    """Print whether the embedded input reproduces a package, and exit with the matching code."""
     # Where only drawings differ, as from another processor, a person compares the two by eye.
     again = out or file.with_name(f"{file.stem}-again.pdf")
     with input_errors(file, as_json=as_json), _ended_by_signals():

@@ -148,7 +148,7 @@ A value that is `Wide` covers the columns that follow.
 
 
 def by_place(*heads: ColumnHead) -> Sequence[Column]:
-    """Return columns for items that are rows of values: each takes the value at its place."""
+    """Return columns for items that are rows of values: each uses the value at its index."""
     return [(head, itemgetter(place)) for place, head in enumerate(heads)]
 
 
@@ -177,7 +177,7 @@ def listed(
     whole_rows: int = WHOLE_ROWS,
     style: Callable[[Any], str] = lambda _: "",
 ) -> Table:
-    """Return items as a table: each column says its heading and its value."""
+    """Return items as a table: each column supplies its heading and its values."""
     units = [head.units(fmt) for head, *_ in columns]
     return Table(
         columns=tuple(column for head, *_ in columns for column in head.columns(fmt)),

@@ -43,7 +43,7 @@ class Lane:
 
     @property
     def is_upright(self) -> bool:
-        """Whether words along the lane read from below."""
+        """Whether text along the lane reads from below."""
         # Steeper than 64°, arcsin 0.9.
         return abs(self.along[1]) > 0.9
 

@@ -1,4 +1,4 @@
-"""The slope at which a section through an array is drawn, so that it shows.
+"""The slope at which a section through an array is drawn, so that it is visible.
 
 A roof of 2 deg is drawn at 8, one of 10 deg at 10, and one of 20 deg at 15.
 """

@@ -202,7 +202,7 @@ class Gap:
 
     @property
     def name(self) -> str:
-        """What it is called where it has no label."""
+        """Its name if it has no label."""
         gap = self.of
         return f"clearance {gap.number}" if gap.is_given else f"{gap.array} to {gap.other}"
 

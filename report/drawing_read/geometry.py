@@ -1,4 +1,4 @@
-"""Outlines in plan, turned, along their own axes, and as rectangles where they are some.
+"""Outlines in plan: rotated, along their own axes, and as rectangles if they are rectangular.
 
 A rectangle of 30 by 10 m, turned by 30 deg, has these sides along its own axes.
 """

@@ -1,4 +1,4 @@
-"""What the name of a layer says of what is drawn on it.
+"""Guesses the content of a layer from its name.
 
 `PV_MODULES` has arrays, `M-HVAC-RTU` fixed objects, `A-ANNO-DIMS` nothing that is read; of `0`
 nobody knows.

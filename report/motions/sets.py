@@ -2,8 +2,8 @@
 
 RM1-x.csv, RM1-y.csv and RM1-z.csv are the motion RM1.
 
-Told by the heading of a channel or the end of its file's name, by time step, length and start time;
-what is not clear is left out with the reason, never guessed. Read `sets_of`.
+Components are identified by the heading of a channel or the end of its file name, by time step,
+length and start time; ambiguous sets are skipped with the reason, never guessed. Read `sets_of`.
 """
 
 from __future__ import annotations

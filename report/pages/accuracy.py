@@ -183,7 +183,7 @@ def _sum_table(package: PackageData, sums: Sequence[Cumulative]) -> Table:
 
 
 def _turned(uncertainty: Uncertainty, fmt: UnitFormat) -> str:
-    """Return what other angles of the horizontal pair give, as a clause."""
+    """Return the result of other angles of the horizontal pair, as a clause."""
     if not uncertainty.turned:
         return "the motion has one horizontal component, so its angle is not varied"
     worst, used_m = uncertainty.worst, uncertainty.used_m
@@ -201,7 +201,7 @@ def _turned(uncertainty: Uncertainty, fmt: UnitFormat) -> str:
 
 
 def _reversed(uncertainty: Uncertainty, fmt: UnitFormat) -> str:
-    """Return what a reversed vertical component gives, as a clause."""
+    """Return the result of a reversed vertical component, as a clause."""
     if not uncertainty.motion.motion.has_vertical:
         return "there is no vertical component to reverse"
     if math.isnan(uncertainty.reversed_m):

@@ -38,6 +38,6 @@ _ALIKE: Mapping[str, Callable[[RecordFile], str]] = {
 
 
 def _alike(rows: Sequence[RecordFile]) -> Mapping[str, str]:
-    """Return what all files have alike, by name."""
+    """Return the values common to all files, by name."""
     values_by_name = {name: {show(row) for row in rows} for name, show in _ALIKE.items()}
     return {name: values.pop() for name, values in values_by_name.items() if len(values) == 1}

@@ -41,7 +41,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 
 def remedy_lines(assessment: Assessment, remedies: Remedies) -> Iterator[str]:
-    """Yield the set of changes that is enough, then what would satisfy each check that is NG."""
+    """Yield the sufficient set of changes, then the remedies of each NG check."""
     if len(remedies.together) > 1:
         yield remedies.sentence
     for checks, changes in grouped_by(remedies.own, lambda remedy: remedy.checks).items():

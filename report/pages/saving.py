@@ -20,7 +20,7 @@ from report.text.units import number
 
 
 def without_analysis(assessment: Assessment) -> str:
-    """Return what arrays take for lack of motions, and what an analysis could save; or nothing."""
+    """Return the displacement used without motions, and possible savings; or nothing."""
     gain = saving(assessment)
     if assessment.has_motions and not gain.ids:
         return ""
@@ -34,7 +34,7 @@ def without_analysis(assessment: Assessment) -> str:
 
 
 def saving_words(gain: Saving, marks: Marks, fmt: UnitFormat) -> str:
-    """Return what an analysis could save, in a project without motions that permit one."""
+    """Return the possible savings by an analysis, for a project whose motions do not permit one."""
     slope_clause = marks.clause("analysis_max_slope_deg")
     alone = " without peer review" if gain.is_lifted_by_review else ""
     if not gain.ids:
@@ -64,7 +64,7 @@ def saving_words(gain: Saving, marks: Marks, fmt: UnitFormat) -> str:
 
 
 def _at_floor(gain: Saving, floor: str) -> str:
-    """Return how many of the clearances that fail would be satisfied at the floor."""
+    """Return the number of failing clearances that would be satisfied at the floor."""
     if gain.n_short == 1:
         still = "" if gain.n_satisfied else "still not "
         return f"At {floor}, the failing clearance would {still}be satisfied"

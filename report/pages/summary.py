@@ -97,7 +97,7 @@ def _caption(package: PackageData) -> str:
 
 
 def _enough(done: Assessment, remedies: Remedies) -> str:
-    """Return what is enough for a project that is NG, in a sentence; or that nothing found is."""
+    """Return the sufficient changes for an NG project, as a sentence; or that none was found."""
     if remedies.own and not remedies.together:
         return "None of the combinations tried is sufficient."
     return remedies.sentence

@@ -159,7 +159,7 @@ def _start(source: Source) -> dt.datetime | None:
 
 
 def _check_size(source: Source, channel: Record) -> None:
-    """Raise if a step or a value is none of an accelerogram: the units or the scale are wrong."""
+    """Raise if a step or a value is impossible for an accelerogram: wrong units or scale."""
     # Before the peak: a code such as 9999 is told as a code, not as 9999 g.
     check_gaps(source.name, channel.a_mps2)
     check_peak(source.name, channel.a_mps2)

@@ -1,4 +1,4 @@
-"""What the fire code requires: pathways along clearances, and the size of array sections.
+"""Fire code requirements: pathways along clearances, and the size of array sections.
 
 96 in less the 40.8 in that an array slides leave 55.2 in, enough for a pathway of 48 in.
 """

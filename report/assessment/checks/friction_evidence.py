@@ -37,7 +37,7 @@ _row = partial(condition, clause="friction tests", actor=Actor.LABORATORY)
 
 
 def of_tests(data: ProjectInput) -> Iterator[Check]:
-    """Yield what is required of the friction tests."""
+    """Yield the requirements on the friction tests."""
     # PV1-2012: by ASTM G115 in an accredited laboratory, wet and dry, and three runs as commonly
     # known.
     yield _on_file(data)

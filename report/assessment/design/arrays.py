@@ -248,7 +248,7 @@ def assess_array(
 
 
 def marked(item: ArrayAssessment, adopted: ArrayAssessment) -> ArrayAssessment:
-    """Return an array with the marks of what is another number under the rule set as adopted."""
+    """Return an array with marks on numbers that differ under the rule set as adopted."""
     # True is greater than False: permitted with overrides, and not without.
     opened = OVERRIDDEN if item.is_permitted > adopted.is_permitted else ""
     marks = ArrayMarks(

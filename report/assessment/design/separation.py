@@ -125,7 +125,7 @@ def importance_factor(rules: RuleSet, neighbor: Neighbor, *, i_e: float, i_p: fl
 
 
 def are_alike(first: Array, second: Array) -> bool:
-    """Whether two arrays slide alike: construction, slope, friction and downslope direction."""
+    """Whether two arrays are similar: construction, slope, friction and downslope direction."""
     # Directions of 359 and 1 degrees are 2 degrees apart, not 358.
     turn = (first.downslope_deg - second.downslope_deg) % 360.0
     return (

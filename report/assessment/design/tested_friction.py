@@ -152,7 +152,7 @@ class VelocityCheck:
 
     @property
     def is_far(self) -> bool:
-        """Whether the array may slide so fast that the tests do not show its friction."""
+        """Whether the array may slide too fast for the tests to show its friction."""
         # Not `>`: NaN, of a run without a velocity or of tests without one, is far.
         return not self.fastest_mps <= MOST_BEYOND * self.tested_mps
 

@@ -196,7 +196,7 @@ def least_i_e(row: InputRow) -> float | None:
 
 
 def least_category(row: InputRow) -> Sdc | None:
-    """Return the SDC of a row, if all that it depends on is given."""
+    """Return the SDC of a row, if all required inputs are entered."""
     # Empty text, of what is not known, is below every letter.
     category = max(categories(row))
     return Sdc(category) if category and not category_lacks(row) else None

@@ -123,7 +123,7 @@ def dates_in(text: str) -> list[date]:
 
 
 def separator(lines: Collection[str]) -> str:
-    """Return what separates the columns of a CSV: what most of its lines have, `;` before `,`."""
+    """Return the separator of a CSV: the one in most of its lines, `;` before `,`."""
     # A semicolon goes before a comma of as many lines: where it separates, the comma is a decimal
     # one.
     return max(";\t,", key=lambda mark: sum(mark in line for line in lines))
