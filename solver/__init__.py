@@ -35,7 +35,7 @@ Targets, suites and buildings:
     ac156_vertical      Return the vertical AC156 spectrum, 5% damping: 0.67 S_DS and 0.27 S_DS.
     make_suite          Generate motions of two horizontal components and a vertical component each.
     building_of_periods Return a uniform building whose first modes have the given periods.
-    at_roof             Return a ground motion as the roof of an elastic building has it.
+    at_roof             Return the motion of an elastic building's roof under a ground motion.
 """
 
 from importlib import import_module
