@@ -173,6 +173,7 @@ def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Ma
         (text("Step", "s", 1.1), lambda row: f"{row[0].dt_s:.3g}"),
         (
             text("Duration", "s", 1.1),
+            # n samples have n - 1 steps between them.
             lambda row: number((len(row[0].ax_mps2) - 1) * row[0].dt_s, 2),
         ),
         (words("Scaling", 1.35), lambda row: row[1].scaling),

@@ -165,6 +165,7 @@ def _statistics(package: PackageData, group: _Alike, runs: int) -> Iterator[Tabl
             cells=(
                 Wide(label, 1 + runs),
                 *head.cells(value_m, fmt.none, head.units(fmt), mark),
+                # After the directions come two residuals, the time, N/W and the status.
                 Wide(about, len(_WAYS) + 5),
             ),
             kind=bar(is_changed, "total"),

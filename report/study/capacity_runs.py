@@ -165,6 +165,7 @@ def _deviations(motions: Sequence[Motion]) -> Floats:
             of_components.append(motion.scaled(spectrum))
         spectra_of_motions.append(of_components)
     spectra = np.array(spectra_of_motions)
-    # A component of zeros has no logarithm: the spread is then not known.
+    # A component of zeros has no logarithm: the spread is then not known. By n - 1 (ddof), since
+    # the motions are a sample.
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(np.log(spectra).std(axis=0, ddof=1).ravel())
