@@ -1,7 +1,7 @@
 """One array under one motion: each component along the slope in each polarity; governing run.
 
-Two horizontal components in two polarities are four runs; seven motions are 28 for an array, and
-none more for a second array of that slope and friction.
+Two horizontal components in two polarities are four runs; seven motions are 28 runs for an array,
+and no more for a second array with the same slope and friction.
 
 Integrates nothing itself (`solver.sliding.model_selection` does) and knows no code rule. Read
 `Runs`, then `report.assessment.assess`.
@@ -58,13 +58,13 @@ class OrientedRun:
 
     @property
     def model(self) -> str:
-        """Name of the model used; without the vertical where the motion has none."""
+        """Name of the model used; without the vertical if the motion has none."""
         title = self.solution.model.title
         return title if self.scene.az_mps2.size else title.removesuffix(" with vertical")
 
     @property
     def prd_m(self) -> float:
-        """PRD [m]; NaN where the run has no final displacement."""
+        """PRD [m]; NaN if the run has no final displacement."""
         return self.result.prd_m if self.result.status is Status.OK else math.nan
 
     @property
@@ -114,7 +114,7 @@ class MotionRun:
 
 
 class Runs:
-    """The runs of arrays under the motions of one suite: each is begun once, and kept.
+    """The runs of arrays under the motions of one suite; each is started once and cached.
 
     Arrays with one slope and friction share them. Knows no rule. The orientations `known` of an
     array under a motion are run alone, which is not for design; nor is a larger tolerance.
@@ -133,7 +133,7 @@ class Runs:
         self._done: dict[_Key, MotionRun] = {}
 
     def copy(self, scenes: Collection[Hashable] = ()) -> Runs:
-        """Return the runs that there are, or of some scenes; the copy alone keeps what follows."""
+        """Return a copy of the existing runs, or of some scenes; it alone stores later runs."""
         copied = copy(self)
         copied._motions = dict(self._motions)
         copied._begun = _of(scenes, self._begun)
@@ -142,14 +142,14 @@ class Runs:
         return copied
 
     def knowing(self, known: Reference) -> Runs:
-        """Return the same runs, but of some arrays those in some orientations alone."""
+        """Return the same runs, but only some orientations for some arrays."""
         # Shallow: what either of them begins is there for both.
         runs = copy(self)
         runs._known = known
         return runs
 
     def begin(self, arrays: Iterable[Array], motions: Iterable[Motion]) -> None:
-        """Begin the runs of arrays under motions, without waiting for them."""
+        """Start the runs of arrays under motions, without waiting for them."""
         motions = list(motions)
         for array in arrays:
             scene = scene_key(array)
@@ -184,11 +184,11 @@ class Runs:
         return tuple(done)
 
     def map(self, do: Callable[[_T], _R], items: Iterable[_T]) -> list[_R]:
-        """Return what becomes of each item, two at a time."""
+        """Return the result for each item, two at a time."""
         return list(self._pool.map(do, items))
 
     def _names(self, array: Array, motion: Motion) -> tuple[str, ...]:
-        """Return the names of the orientations that are run alone; none for all."""
+        """Return the names of the only orientations run; none for all."""
         return tuple(self._known.get(array.id, {}).get(motion.id, ()))
 
     def _run(
@@ -206,12 +206,12 @@ def _of(scenes: Collection[Hashable], known: Mapping[_Key, _T]) -> dict[_Key, _T
 
 
 def scene_key(array: Array) -> Hashable:
-    """Return what the runs of an array under a motion follow from: equal ones have equal runs."""
+    """Return the key of the runs of an array under a motion; equal keys have equal runs."""
     return array.slope_rad, array.friction
 
 
 def run_motion(array: Array, motion: Motion) -> MotionRun:
-    """Run one array under one motion in all of its runs, which are not kept."""
+    """Run one array under one motion in all orientations, without caching."""
     return motion_run(
         motion, [run_oriented(array, motion, orientation) for orientation in motion.orientations]
     )

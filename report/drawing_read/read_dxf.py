@@ -190,7 +190,9 @@ class _Reader:
                 reason = "invisible"
             # What a block has on layers of its own is shown where that of the block is off.
             elif hidden and not (kind == "INSERT" and hidden == "off"):
-                reason = f"on a layer that is {hidden}"
+                reason = (
+                    "on a layer that is turned off" if hidden == "off" else f"on a {hidden} layer"
+                )
             elif kind == "INSERT":
                 reason = self._take_insert(entity, layer, handle, block)
             elif kind in _TEXTS:

@@ -195,10 +195,10 @@ def _category_and_force(data: ProjectInput) -> Iterator[_Row]:
     )
     by_short, by_long, near_fault = categories
     by_s_1 = near_fault or f"below {hazard.NEAR_FAULT_S_1_G:g}{NO_BREAK}g"
-    source = Markup("the most severe of {} (short period), {} (1{}s), {} {}").format(
-        by_short, by_long or _NOT_ENTERED, NO_BREAK, symbol("S_1"),
-        _NOT_ENTERED if site.s_1_g is None else by_s_1,
-    )  # fmt: skip
+    at_1_s = f"{by_long} (1{NO_BREAK}s)" if by_long else symbol("S_D1") + f" {_NOT_ENTERED}"
+    source = Markup("the most severe of {} (short period), {}, {} {}").format(
+        by_short, at_1_s, symbol("S_1"), _NOT_ENTERED if site.s_1_g is None else by_s_1
+    )
     # Letters, A the mildest; a category that is not known is an empty text, below all of them.
     category = max(categories) + site.sdc_mark
     yield _row("Seismic design category from these values", "", category, clause("sdc"), source)

@@ -1,1 +1,1 @@
-"""A package compared with what its own input gives. Read `package`."""
+"""Compares a package with the one reproduced from its own input. Read `package`."""

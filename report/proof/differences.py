@@ -1,4 +1,4 @@
-"""Where two documents of JSON or two texts differ: one claimed by a stranger, one computed.
+"""Differences between two JSON documents or texts: one claimed, one computed.
 
 `differences({"prd_m": 0.11}, {"prd_m": 0.12})` yields `prd_m is 0.11; the input gives 0.12`.
 """
@@ -24,8 +24,8 @@ _LONGEST, _DIGITS = 60, 20
 def parsed(content: bytes, name: str) -> Any:
     """Return JSON as data.
 
-    Raises `InputError` if it is none, is nested too deep, names a key twice, or has a number beyond
-    any of ours.
+    Raises `InputError` if it is not JSON, is nested too deep, repeats a key, or contains a number
+    that is too large.
     """
     try:
         # It counts how deep it goes; `json` ends in a traceback.
@@ -65,7 +65,7 @@ def _finite(digits: str) -> float:
 def differences(
     claimed: Any, computed: Any, place: str = "", *, shared: bool = False
 ) -> Iterator[str]:
-    """Yield where two documents of JSON, as claimed and as computed, differ.
+    """Yield differences between a claimed and a computed JSON document.
 
     `place` is where they are in larger ones; `shared` compares only the numbers that both have.
     """
@@ -96,7 +96,7 @@ def _is_number(value: Any) -> bool:
 
 
 def _allowed(claimed: float, computed: float, place: str) -> float:
-    """Return how far two numbers may be apart."""
+    """Return the permitted difference of two numbers."""
     # An estimate of an error is itself mostly rounding: it may differ by its own size.
     if place.rpartition(".")[2] == "error_m":
         return max(abs(computed), ABSOLUTE)
@@ -109,7 +109,7 @@ def _short(value: Any) -> str:
 
 
 def first_other_word(claimed: str, computed: str) -> str:
-    """Return where the words of two texts first differ, or nothing; blanks do not count."""
+    """Return the first difference between the words of two texts, or nothing; ignores blanks."""
     first, second = claimed.split(), computed.split()
     # Where a line breaks, and with it where blanks are, follows from the fonts that lay it out.
     letters = "".join(first), "".join(second)

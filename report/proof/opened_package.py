@@ -1,6 +1,6 @@
-"""An untrusted package, opened, with the files that it holds. Read `opened`, then `take_out`.
+"""Opens an untrusted package and the files in it. Read `opened`, then `take_out`.
 
-Owns the limits on size and on where files may be taken out to.
+Defines the limits on size and on the locations of extracted files.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _MOST_OTHERS = 20
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OpenedPackage:
-    """A package as a reader of PDF shows it, whatever was appended to it."""
+    """A package as shown by a PDF reader, including anything appended to it."""
 
     data: bytes  # the whole file
     pdf: PdfReader
@@ -55,10 +55,10 @@ def read_package(path: Path) -> bytes:
 
 
 def opened(data: bytes) -> OpenedPackage:
-    """Return a package with the files that it holds.
+    """Return a package with the files in it.
 
-    Raises `InputError` if it is damaged, unpacks to too much, or is no package with its input
-    inside.
+    Raises `InputError` if it is damaged, unpacks to too much data, or is not a package with its
+    input.
     """
     # At its first byte: readers accept a PDF behind other content, which may be a program.
     if not data.startswith(b"%PDF-"):
@@ -153,9 +153,9 @@ def _manifest(files: Mapping[str, bytes]) -> Manifest:
 def take_out(
     package: OpenedPackage, folder: Path, records: Path | None = None
 ) -> tuple[Path, list[Path]]:
-    """Write the input of a package to a folder of its own; return workbook and former results.
+    """Write the input of a package to a folder of its own; return workbook and previous results.
 
-    `records` is where the record files lie that the package only lists.
+    `records` is the folder of record files that the package only lists.
 
     Raises `InputError` if a name leads outside of the folder or appears twice, or a record is not
     that listed.
@@ -184,11 +184,11 @@ def take_out(
 
 
 class RecordsMissingError(InputError):
-    """Record files that a package only lists are not given: what is called lacks something."""
+    """Record files that a package only lists are not available."""
 
 
 def _left_out(file: Listed, records: Path | None) -> bytes:
-    """Return a record file that a package is too small to hold."""
+    """Return a record file that is only listed in a package."""
     if records is None:
         raise RecordsMissingError(
             "its records are too large to be attached; name the folder of the workbook that they"

@@ -1,6 +1,6 @@
-"""Compares a package with the one made again from its input. Read `compared`.
+"""Compares a package with the one regenerated from its input. Read `compared`.
 
-Drawings are never compared; words and numbers are, as far as both are of one version.
+Drawings are never compared; text and numbers are, if both are from the same version.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from report.provenance.release import version
 
 
 class Agreement(StrEnum):
-    """How a package compares with the one made again."""
+    """Agreement of a package with the regenerated one."""
 
     SAME = "same"
     PARTLY = "not compared in full"
@@ -46,7 +46,7 @@ _UNCHECKED = (
 
 
 def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
-    """Compare a package with the one made again from its input.
+    """Compare a package with the one regenerated from its input.
 
     Raises `InputError` if the package is damaged or larger than any package.
     """
@@ -114,7 +114,7 @@ def _other_version(theirs: Manifest) -> str:
 def _reasons(
     package: OpenedPackage, made: OpenedPackage, later: Appended, *, is_same: bool
 ) -> Iterator[str]:
-    """Yield what differs or what no package has."""
+    """Yield differences, and content that no package contains."""
     yield from later.problems
     # Before words: a script may replace them when a reader opens the file.
     yield from refused(package.pdf)

@@ -1,4 +1,4 @@
-"""The sheets and words of a PDF from a stranger, and what in it no package has.
+"""The sheets and text of an untrusted PDF, and content that no package contains.
 
 `refused` yields `sheet 3: a script (/JavaScript)`; `words` the place and text of each sheet.
 """
@@ -56,7 +56,7 @@ def pages(pdf: PdfReader) -> Sequence[PageObject]:
 
 
 def refused(pdf: PdfReader) -> Iterator[str]:
-    """Yield where a PDF has what no package has, whichever software wrote it.
+    """Yield locations of content in a PDF that no package contains, whichever software wrote it.
 
     Raises `InputError` if it has more sheets or objects than any package.
     """
@@ -136,7 +136,7 @@ def _dictionaries(pdf: PdfReader) -> Iterator[tuple[str, DictionaryObject]]:
 
 
 def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
-    """Yield the place and the words of each sheet, then those that are read aloud or listed.
+    """Yield the place and the text of each sheet, then text for screen readers and bookmarks.
 
     Raises `InputError` if that takes longer than with any package.
     """
@@ -165,7 +165,7 @@ def words(pdf: PdfReader) -> Iterator[tuple[str, str]]:
 
 
 def guarded(read: Callable[[], _T]) -> _T:
-    """Run what reads a PDF; raises `InputError` where it is damaged."""
+    """Run a function that reads a PDF; raises `InputError` if it is damaged."""
     try:
         return read()
     except InputError:

@@ -1,4 +1,4 @@
-"""What was appended to a package: what pyHanko says of its signatures, and whether it is no more.
+"""Data appended to a package: pyHanko's result on its signatures, and anything else.
 
 Needs the optional extra `sign`: pyHanko is imported where it is used, as packages are verified
 without it too. Not whether a certificate is trusted: a PDF reader knows whom its
@@ -34,7 +34,7 @@ class Signature:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Appended:
-    """What was appended to a package."""
+    """Data appended to a package."""
 
     signed: Sequence[Signature] = ()
     problems: Sequence[str] = ()  # where it is more than signatures that fit
@@ -42,7 +42,7 @@ class Appended:
 
 
 def appended(data: bytes, made: bytes = b"") -> Appended:
-    """Return what was appended to a package.
+    """Return the data appended to a package.
 
     `made` is what it was appended to; without it only signatures are judged.
 
@@ -104,7 +104,7 @@ _CHANGING |= {"/ModDate", "/Producer"}
 
 
 def _others(data: bytes, made: bytes) -> Iterator[str]:
-    """Yield what was changed in a package that signing does not change."""
+    """Yield changes in a package other than those of signing."""
     original, signed = (PdfReader(io.BytesIO(file), strict=True) for file in (made, data))
     before, after = _places(original), _places(signed)
     for number in sorted(before):
@@ -212,7 +212,7 @@ def signed(data: bytes, p12: bytes, password: str, time_url: str = "") -> bytes:
 
 
 def _look() -> Any:
-    """Return how the signature looks in the seal box: name and time, in the font of the package."""
+    """Return the look of the signature in the seal box: name and time, in the package font."""
     from pyhanko.pdf_utils.font.api import FontEngineFactory
     from pyhanko.pdf_utils.font.opentype import GlyphAccumulator
     from pyhanko.pdf_utils.text import TextBoxStyle

@@ -1,1 +1,1 @@
-"""What a package was computed from: files, hashes, software. Read `package_sources`."""
+"""Sources of a package: files, hashes, software. Read `package_sources`."""

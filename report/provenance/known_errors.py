@@ -1,4 +1,4 @@
-"""The errors of earlier versions, and which of them a package may have.
+"""The errors of earlier versions, and those that may affect a package.
 
 The list is `templates/known-errors.toml`. Read `touching`.
 """
@@ -18,7 +18,7 @@ from report.typeset.pdf import TEMPLATES
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KnownError:
-    """An error that was corrected; the words of the list say what each field holds."""
+    """A corrected error; the list explains each field."""
 
     until: str
     of: str
@@ -37,7 +37,7 @@ def known_errors() -> tuple[KnownError, ...]:
 
 
 def touching(made_by: str, results: Any) -> Iterator[KnownError]:
-    """Yield those that a package may have, of the version that made it and its results.json."""
+    """Yield errors that may affect a package, from its version and its results.json."""
     for error in known_errors():
         is_of_it = error.of == "package" and _holds(results, error.needs)
         if is_of_it and _is_up_to(made_by, error.until):
@@ -54,7 +54,7 @@ def _is_up_to(made_by: str, last: str) -> bool:
 
 
 def _holds(results: Any, place: str) -> bool:
-    """Whether results.json, which nobody has checked, has something in a place."""
+    """Whether an unchecked results.json contains something at a place."""
     for key in filter(None, place.split(".")):
         results = results.get(key) if isinstance(results, dict) else None
     return bool(results)

@@ -46,7 +46,7 @@ _LIBRARIES = (
 
 @cache
 def versions() -> Mapping[str, str]:
-    """Return the versions that a package prints, by name, without what is not installed."""
+    """Return the versions that a package prints, by name, except packages not installed."""
     by_name = {"roofslip": version(), "python": platform.python_version()}
     for name in _LIBRARIES:
         with suppress(metadata.PackageNotFoundError):
@@ -106,7 +106,7 @@ class _Part(BaseModel):
 
 
 class Listed(_Part):
-    """A file of the manifest: where it belongs, its name as an attachment, its size and hash."""
+    """A file of the manifest: its path, its name as an attachment, its size and hash."""
 
     path: str
     name: str
@@ -116,7 +116,7 @@ class Listed(_Part):
 
 
 class Manifest(_Part):
-    """What a package was computed from, and by which software."""
+    """Files and software that a package was computed with."""
 
     schema_version: int
     roofslip_version: _Version
@@ -132,7 +132,7 @@ class Manifest(_Part):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SourceFile:
-    """A file that was read: where it belongs, its name as an attachment, and what it holds."""
+    """A file that was read: its path, its name as an attachment, and its content."""
 
     path: str
     name: str
@@ -176,14 +176,14 @@ def record_bytes(records: Sequence[RecordFile]) -> int:
 
 
 def holds_records(records: Sequence[RecordFile]) -> bool:
-    """Whether a package holds the record files themselves."""
+    """Whether a package contains the record files themselves."""
     return record_bytes(records) <= MOST_RECORDS
 
 
 def sources(sheet: Sheet, shaking: Shaking, earlier: bytes = b"") -> tuple[SourceFile, ...]:
-    """Return what a package has inside: workbook, record files, documents, a former results.json.
+    """Return the files embedded in a package: workbook, records, documents, earlier results.json.
 
-    Each as it was read, whatever lies in its place by now.
+    Each as it was read, even if the file has changed since.
 
     Raises `InputError` if a file was read for several motions or cells, and was not the same each
     time.
@@ -208,7 +208,7 @@ def sources(sheet: Sheet, shaking: Shaking, earlier: bytes = b"") -> tuple[Sourc
 
 
 def _path(row: RecordFile) -> str:
-    """Return where a record file lies, from the folder of the workbook."""
+    """Return the path of a record file from the folder of the workbook."""
     return posixpath.normpath(row.name.partition(BAR)[0].strip().replace("\\", "/"))
 
 

@@ -1,6 +1,6 @@
-"""Motions that are added to a project: their records beside the workbook, and rows of Motions.
+"""Motions added to a project: their records next to the workbook, and rows of Motions.
 
-Read `row_cells`, then `other_sources`: what suite.json says of the records beside it.
+Read `row_cells`, then `other_sources`, which compares with suite.json.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ Row = Mapping[str, Value]
 
 
 def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Value]:
-    """Return the cells of a workbook that further motions fill; rows that stand are kept.
+    """Return the cells of a workbook for further motions; existing rows are kept.
 
-    Of a row that has the same generated records the source is renewed.
+    The source of a row with the same generated records is updated.
 
     Raises `InputError` with each cell that has one of their IDs already, or if they have no room.
     """
@@ -64,7 +64,7 @@ def row_cells(book: OpenBook, rows: Sequence[Row]) -> Mapping[CellPosition, Valu
 
 
 def _is_former(change: WorkbookChange, number: int, row: Row) -> bool:
-    """Whether a row of a table is that of the same motion of a suite that was made before."""
+    """Whether a row of a table lists the same motion of a suite generated before."""
     sources = change.cell("motions", number, "source").shown, str(row["source"])
     # Only of a generated motion: a row that an engineer gave a source is not written to.
     records = all(change.cell("motions", number, name).shown == row[name] for name in LABELS)
@@ -72,7 +72,7 @@ def _is_former(change: WorkbookChange, number: int, row: Row) -> bool:
 
 
 def name_beside(book: OpenBook, path: Path) -> str:
-    """Return how a workbook names a file or folder, which must be in its own folder.
+    """Return the name of a file or folder in a workbook; it must be in the workbook's folder.
 
     Raises `InputError` if it is outside, also by a link, or has a mark in its name that separates
     something else.
@@ -124,7 +124,7 @@ def set_rows(
 ) -> tuple[list[Row], dict[str, bytes]]:
     """Return the rows of sets, and the files to copy into `records` beside the workbook.
 
-    Files that are in its folder stay where they are; `about` is the same for all motions.
+    Files in its folder are not copied; `about` is the same for all motions.
 
     Raises `InputError` for each file in whose place another one is.
     """
@@ -160,7 +160,7 @@ _STATED = re.compile(r"\b(seed|S_DS|z/h)\W+(\d+(?:\.\d+)?)")
 
 
 def other_sources(sheet: Sheet) -> Iterator[Finding]:
-    """Yield a warning for each motion whose source is not that of the suite beside its records.
+    """Yield a warning for each motion whose source differs from the suite next to its records.
 
     A package does not have suite.json inside, and so not the warning.
     """
@@ -174,7 +174,7 @@ def other_sources(sheet: Sheet) -> Iterator[Finding]:
 
 
 def said_near(folder: Path) -> Iterator[str]:
-    """Yield in words the sources of `other_sources` in the workbooks of a folder and above it."""
+    """Yield the sources of `other_sources` as text, for workbooks in a folder and above it."""
     resolved = folder.resolve()
     # A suite is made in records/ or in a folder of it: the workbook is at most two above.
     workbooks: list[Path] = []
@@ -203,7 +203,7 @@ def _source(record: Path) -> str:
 
 
 def _differs(source: str, stated: str) -> bool:
-    """Whether a source is a former one, or states another number."""
+    """Whether a source is an earlier one, or states another number."""
     typed, made = dict(_STATED.findall(source)), dict(_STATED.findall(stated))
     # Rounded numbers in a source that was typed are the same: 0.5% is less than any two suites
     # differ by.

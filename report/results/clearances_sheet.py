@@ -1,4 +1,4 @@
-"""The sheet Clearances of results.xlsx: required and provided separations, as live formulas.
+"""The Clearances worksheet of results.xlsx: required and provided separations, live formulas.
 
 Computes nothing: each formula is written with the value from `report.assessment.assessment`. Read
 `GAPS`.

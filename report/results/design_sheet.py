@@ -1,7 +1,7 @@
-"""The sheet Design of results.xlsx: from the peaks to the design displacement and the verdicts.
+"""The Design worksheet of results.xlsx: from the peaks to the design displacement and verdicts.
 
-Live formulas, each written with the value from `report.assessment`: with the worksheets Peaks,
-and Inputs that Design follows from. Read `DESIGN`.
+Live formulas, each written with the value from `report.assessment`; also the Peaks and Inputs
+worksheets that Design is computed from. Read `DESIGN`.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ InputCells = Mapping[str, str]
 
 @dataclass(frozen=True, slots=True)
 class _Input:
-    """A number with its digits, or one of several words; of the rule set, under its key there."""
+    """A number with its digits, or a choice; values of the rule set are stored under their key."""
 
     key: str
     label: str
@@ -95,7 +95,7 @@ class _Input:
 
 
 def write_inputs(pages: Pages, assessment: Assessment) -> InputCells:
-    """Write what may be changed for the whole project; return the cells."""
+    """Write the inputs that may be changed for the whole project; return the cells."""
     inputs = list(_inputs(assessment))
     sheet = pages.sheet(
         "Inputs",
@@ -194,7 +194,7 @@ _DIFFERENCE = '=IF(ISTEXT({design_m}),"none",{design_m}-{by_roofslip_m})'
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignRow:
-    """An array with what its formulas take from the rule set, and its verdicts."""
+    """An array with the rule-set values of its formulas, and its verdicts."""
 
     item: ArrayAssessment
     verdict: Verdict
@@ -271,7 +271,7 @@ def write_design(
     inputs: InputCells,
     results: Mapping[str, Sequence[str]],
 ) -> Sequence[DesignRow]:
-    """Write the design displacement and the verdict of each array; return what its rows hold.
+    """Write the design displacement and the verdict of each array; return its rows.
 
     From `results`, the cells with OK, NG or none of its clearances and its row of linked blocks.
     """

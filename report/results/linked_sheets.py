@@ -1,4 +1,4 @@
-"""The sheets Links and LinkRuns of results.xlsx: an array as a row of blocks beside one block."""
+"""The Links and LinkRuns worksheets of results.xlsx: an array as a row and as one block."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The lists of results.xlsx: runs, motions, records, spectra, neighbors and checks, as printed.
+"""The lists of results.xlsx: runs, motions, records, spectra, adjacent items, checks, as printed.
 
 Computes nothing. Read `report.results.xlsx`.
 """
@@ -38,7 +38,7 @@ from solver.sliding.model_selection import Model
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Run:
-    """A run of an array; without a displacement where it does not come to rest."""
+    """A run of an array; without a displacement if it does not come to rest."""
 
     array: ArrayAssessment
     motion: MotionRun
@@ -154,7 +154,7 @@ _NEIGHBORS = (
 
 
 def write_lists(pages: Pages, assessment: Assessment, spectra: Sequence[Spectra]) -> None:
-    """Write the runs, the components of the motions, the records, spectra and neighbors."""
+    """Write the runs, the components of the motions, the records, spectra and adjacent items."""
     shaking = assessment.shaking
     if assessment.has_motions:
         runs = []
@@ -177,7 +177,7 @@ def _components(shaking: Shaking) -> Iterator[_Component]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _CheckTexts:
-    """A check, or checks that ask the same, with what is found and required as printed."""
+    """A check, or identical checks combined, with the printed values found and required."""
 
     check: Check
     found: str
@@ -199,7 +199,7 @@ _CHECKS = SheetLayout(
 
 
 def write_requirements(pages: Pages, assessment: Assessment) -> None:
-    """Write the checks but the clearances, which have a sheet; those that ask the same as one."""
+    """Write the checks except clearances, which have a worksheet; identical ones are combined."""
     rows = []
     for check in alike(check for check in assessment.checks if check.id != "clearance"):
         found_text, limit = found_and_limit(check, assessment.project.us_first)

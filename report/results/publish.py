@@ -1,4 +1,4 @@
-"""Writes finished files to a folder as one set, with a stamp that tells a set that was cut off.
+"""Writes finished files to a folder as one set, with a stamp that reveals an incomplete set.
 
 Read `publish` first; `solver.file_writing` writes.
 """
@@ -37,7 +37,7 @@ _MOST_BYTES = 100_000_000
 
 
 def publish(files: Mapping[str, bytes], folder: Path, names: Sequence[str] = ()) -> None:
-    """Write files to a folder as `write_all` does, and `STAMP`; say where it held a mixture.
+    """Write files and `STAMP` to a folder with `write_all`; report if it contained a mixture.
 
     Of `names`, all that a set may have, what this one lacks is removed if it is as the set before
     had it.
@@ -94,7 +94,7 @@ def _listed(folder: Path) -> Mapping[str, str]:
 
 
 def content(path: Path) -> bytes:
-    """Return the content of a file; nothing of what is no file or too large."""
+    """Return the content of a file; nothing if it is not a file or too large."""
     with suppress(OSError, InputError):
         # A link is no file of a set: `publish` writes none, and reading it would leave the folder.
         if not path.is_symlink():
@@ -107,7 +107,7 @@ def _sha256(content: bytes) -> str:
 
 
 def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> None:
-    """Refuse a folder in which an output would replace an input of the same run.
+    """Reject a folder in which an output would replace an input of the same run.
 
     Raises `InputError` if one of the names, in the folder, is an input by any path, link or hard
     link.
@@ -124,7 +124,7 @@ def check_apart(names: Sequence[str], folder: Path, inputs: Sequence[Path]) -> N
 
 
 def check_of_workbook(folder: Path, results: str, workbook: str) -> None:
-    """Refuse a folder with the results of another workbook, as a file of these results names it.
+    """Reject a folder with the results of another workbook, as named in these results.
 
     Raises `InputError`.
     """

@@ -1,6 +1,6 @@
-"""results.json with units in its keys, written, and read as that of a former revision.
+"""results.json with units in its keys: written, and read as that of a previous revision.
 
-Computes no result, and trusts nothing in the file of a former revision. Read `results_json`.
+Computes no result, and trusts nothing in the file of a previous revision. Read `results_json`.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ MOST_BYTES, MOST_OBJECTS = 25_000_000, 100_000
 
 
 def read_former(path: Path) -> tuple[Compared, bytes]:
-    """Read results.json of a former revision; return it as data, and the file.
+    """Read results.json of a previous revision; return it as data, and the file.
 
     Raises `InputError` if it cannot be read, is damaged or incomplete, or has another schema
     version.

@@ -1,4 +1,4 @@
-"""What changed since a former revision: the results.json of that one, and an assessment.
+"""Changes since a previous revision: compares its results.json with an assessment.
 
 Computes no result. Read `changes`, then `_RESULTS`: the results that are compared.
 """
@@ -35,7 +35,7 @@ MOST_CHANGES, MOST_LETTERS = 2_000, 400_000
 
 
 def check_listed(changes: Changes) -> None:
-    """Refuse more changes since a former revision than can be laid out in minutes."""
+    """Reject more changes since a previous revision than can be laid out in minutes."""
     count = len(changes.items)
     letters = sum(len(item.title) + len(item.before) + len(item.now) for item in changes.items)
     if count > MOST_CHANGES or letters > MOST_LETTERS:
@@ -56,7 +56,7 @@ _Pair = tuple[_Row | None, _Row | None]
 
 
 def changes(earlier: Compared, assessment: Assessment) -> Changes:
-    """Return what changed from a former revision to this assessment."""
+    """Return the changes from a previous revision to this assessment."""
     current = compared(assessment)
     arrays = _paired(current.arrays, earlier.arrays, lambda row: (row.id,)).values()
     gaps = _paired(current.clearances, earlier.clearances, _gap_key).values()
@@ -135,7 +135,7 @@ def with_reissue(assessment: Assessment, earlier: Compared) -> Assessment:
 
 
 def _given(earlier: Compared, current: Compared, assessment: Assessment) -> Iterator[Change]:
-    """Yield what changed of what the results follow from."""
+    """Yield the changes of the inputs of the results."""
     yield from _one(ChangeKind.RULES, "Rule set", earlier.rule_set, current.rule_set)
     yield from _inputs(earlier, assessment, assessment.project.us_first)
     records = earlier.records, current.records, "{row.motion} {row.component}"
@@ -211,7 +211,7 @@ def _cells(section: SheetSection, index: int, assessment: Assessment) -> Mapping
 
 
 def _row_key(row: Any) -> tuple[str, ...]:
-    """Return what identifies a row of a table."""
+    """Return the identifier of a row of a table."""
     if hasattr(row, "id"):
         return (row.id,)
     if hasattr(row, "object"):
@@ -222,7 +222,7 @@ def _row_key(row: Any) -> tuple[str, ...]:
 
 
 def _name(section: SheetSection, key: tuple[str, ...]) -> str:
-    """Return what a row of a table is called; nothing for a section that is none."""
+    """Return the name of a row of a table; nothing for a section that is not a table."""
     if not key:
         return ""
     *parts, count = (part for part in key if part)
@@ -289,7 +289,7 @@ def _clearance(row: ClearanceResult) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Result:
-    """A result that is compared with that of the former revision."""
+    """A result that is compared with that of the previous revision."""
 
     key: str  # of results.json
     kind: ChangeKind | None = None  # None if its change marks the row, and is not listed

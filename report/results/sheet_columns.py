@@ -35,7 +35,7 @@ _ROUNDED_UP = (
 
 @dataclass(frozen=True, slots=True)
 class SheetColumn:
-    """A column of a sheet: its name in formulas, its heading, what it holds of an item."""
+    """A column of a sheet: its name in formulas, its heading, its value for an item."""
 
     name: str  # a second column of one name has the same in another unit
     head: str  # with its unit
@@ -49,7 +49,7 @@ class SheetColumn:
     rounding: Rounding = Rounding.NEAREST
 
     def held(self, item: Any) -> Any:
-        """Return what a cell holds of an item."""
+        """Return the value of an item for a cell."""
         value = self.value(item)
         if value is None:
             return "not entered"
@@ -128,7 +128,7 @@ class SheetLayout:
         return f"{self.sheet}!${self.letters[name]}${row}"
 
     def printed(self, item: Any, name: str) -> float | str:
-        """Return what the first cell of a name holds of an item."""
+        """Return the value of an item for the first cell of a name."""
         column = next(column for column in self.columns if column.name == name)
         value: float | str = written(column.held(item))
         return value
@@ -190,7 +190,7 @@ def write_live(
 def write_rows(
     pages: Pages, sheet: Worksheet, layout: SheetLayout, top: int, rows: Iterable[SheetRow]
 ) -> None:
-    """Write rows from a row of a sheet on: each formula with the value that it gives."""
+    """Write rows from a row of a sheet on: each formula with its value."""
     for number, row in enumerate(rows, start=top):
         cells = {name: f"{letter}{number}" for name, letter in layout.letters.items()}
         for place, column in enumerate(layout.columns):
@@ -268,7 +268,7 @@ def write_table(
 
 
 def _shown(value: Any, decimals: int | None) -> str:
-    """Return what a cell shows."""
+    """Return the text shown in a cell."""
     number = written(value)
     if isinstance(number, float) and decimals is not None:
         return f"{number:.{decimals}f}"

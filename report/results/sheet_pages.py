@@ -1,4 +1,4 @@
-"""The workbook of results.xlsx as it looks and prints: formats, widths, heads and paper.
+"""Appearance and print setup of results.xlsx: formats, widths, heads and paper.
 
 Owns no content: see `report.results.xlsx`. Read `Pages`, then `lay_out`.
 """
@@ -72,7 +72,7 @@ class Pages:
         self._numbers: dict[tuple[int | None, bool, bool], Format] = {}
 
     def mark_verdicts(self, sheet: Worksheet, last: int, columns: int) -> None:
-        """Let cells up to a row show NG in bold and red, and conditions in bold, as they change."""
+        """Format cells up to a row: NG in bold red and conditions in bold, as they change."""
         looks = {Verdict.NG: self.failed}
         looks |= dict.fromkeys((Verdict.CONDITION, Verdict.CONDITIONS), self.open)
         for verdict, look in looks.items():
@@ -80,7 +80,7 @@ class Pages:
             sheet.conditional_format(0, 0, last, columns - 1, rule)
 
     def on_paper(self, sheet: Worksheet, extra: str = "") -> None:
-        """Make the pages of a sheet landscape, each with what package it is of."""
+        """Make the pages of a sheet landscape, each with the name of its package."""
         sheet.set_landscape()
         sheet.set_paper(self.paper)
         sheet.set_margins(left=0.4, right=0.4, top=0.75, bottom=0.6)
@@ -136,8 +136,8 @@ def lay_out(
 ) -> Sequence[int]:
     """Write headings, fit columns and rows to texts as shown, and make landscape pages legible.
 
-    Return the widths of the columns [letters]. The first `keys` say which row it is: they stay in
-    sight, and stand on every page. Only the first columns are `printed`: of data, none.
+    Return the widths of the columns [letters]. The first `keys` identify a row: they stay in view
+    and are repeated on every page. Only the first columns are `printed`; for data, none.
     """
     sheet.write_row(top, 0, headings, pages.head)
     widest = _WIDEST if printed != 0 else _WIDEST_DATA
@@ -179,5 +179,5 @@ def _width(heading: str, cells: Sequence[str], widest: int) -> int:
 
 
 def lines_of(text: str, width: int) -> int:
-    """Return how many lines a text takes, of those that a row may have."""
+    """Return the number of lines of a text, limited to the maximum of a row."""
     return max(1, min(len(wrap(text, width)), _MOST_LINES))

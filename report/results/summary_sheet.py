@@ -1,7 +1,7 @@
-"""The sheet Summary of results.xlsx, as sheet 1 of the package: project, verdicts, what is open.
+"""The Summary worksheet of results.xlsx, same as sheet 1 of the package.
 
-The verdicts and the governing clearance are formulas and follow the yellow cells; the rest is of
-the package. Read `write_summary`.
+The verdicts and the governing clearance are formulas of the yellow cells; the rest is from the
+package. Read `write_summary`.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ _NOTE = (
 def write_summary(
     pages: Pages, assessment: Assessment, designs: Sequence[DesignRow], gaps: Sequence[GapRow]
 ) -> None:
-    """Write the head, the arrays, the checks that govern and what is not satisfied.
+    """Write the head, the arrays, the governing checks and unsatisfied ones.
 
     From the rows of the Design and Clearances worksheets.
     """
@@ -102,7 +102,7 @@ def _write_row(
 
 
 def _head(assessment: Assessment, n_arrays: int) -> Sequence[Sequence[_Value]]:
-    """Return the rows of the project, the last two with the verdict and what it follows from."""
+    """Return the rows of the project, the last two with the verdict and its basis."""
     project, site = assessment.project.project, assessment.project.site
     # What is of no array has no formula on the Design worksheet: the project's verdict takes it
     # from here.
@@ -169,7 +169,7 @@ def _gap(rows: Sequence[GapRow]) -> Sequence[_Value]:
 
 
 def _governing(assessment: Assessment) -> Iterator[Sequence[_Value]]:
-    """Yield the satisfied check with the largest ratio of each kind but clearances."""
+    """Yield the satisfied check with the largest ratio of each type except clearances."""
     for check in largest(assessment):
         if check.id != "clearance":
             rounded = float(ratio(check.ratio))
@@ -177,7 +177,7 @@ def _governing(assessment: Assessment) -> Iterator[Sequence[_Value]]:
 
 
 def _open(assessment: Assessment) -> Iterator[Sequence[_Value]]:
-    """Yield what is not satisfied, with who must act and what they must do."""
+    """Yield unsatisfied checks, with who must act and the action."""
     for check in assessment.open:
         yield (*_said(assessment, check), check.actor, check.to_close, check.verdict.value)
 

@@ -1,4 +1,4 @@
-"""The section of a study on the least friction and the largest slope that are allowed."""
+"""The section of a study on the lowest friction and the largest slope allowed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from solver.model import Floats
 
 
 def allowed(results: StudyResults, building: int, allowed_m: float) -> Section:
-    """Return the section on what an allowed displacement asks for."""
+    """Return the section on the requirements of an allowed displacement."""
     study_input = results.plan.input
     frictions = [shown(mu, FRICTION_DECIMALS) for mu in (study_input.mus[0], study_input.mus[-1])]
     slopes = [

@@ -61,7 +61,7 @@ def array_capacities(
 
 
 def maximum_runs(plan: StudyPlan, array: ArrayPlan) -> int:
-    """Return how many runs the capacities of an array take at most."""
+    """Return the maximum number of runs for the capacities of an array."""
     levels = np.array(plan.input.intensities)
     searched = maximum_searches(SHARES, levels)
     # One standard deviation below and above, and the highest intensity alone, as `_shifted` runs

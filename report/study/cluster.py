@@ -1,4 +1,4 @@
-"""The parts of a study on an existing Dask cluster; each comes back and is kept here."""
+"""Runs the batches of a study on an existing Dask cluster; each is returned and stored here."""
 
 from __future__ import annotations
 

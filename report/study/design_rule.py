@@ -1,4 +1,4 @@
-"""How the design displacement of a study follows from the PRDs of its motions, by a rule set.
+"""The design displacement of a study from the PRDs of its motions, by a rule set.
 
 At S_DS = 1.0 g PV1-2012 prescribes 21.6 in, half of which is the floor of the value from analysis.
 """
@@ -28,7 +28,7 @@ SDC, I_E = "D", 1.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DesignRule:
-    """How the design displacement follows from the PRDs of the motions.
+    """Rule for the design displacement from the PRDs of the motions.
 
     Its arrays have the shape (intensities,); empty unless the intensity is S_DS.
     """

@@ -1,4 +1,4 @@
-"""What a study runs and with what: the manifest beside its parts, by which a later run goes on.
+"""The manifest of a study, stored with its batches, from which a later run continues.
 
 Writes nothing. Read `manifest_of`, then `check_earlier`.
 """
@@ -50,7 +50,7 @@ def program() -> dict[str, str]:
 
 
 def version_differences(manifest_versions: Mapping[str, str], versions: Mapping[str, str]) -> str:
-    """Return in words the versions of a manifest that differ from those here; empty for none."""
+    """Return the versions of a manifest that differ from those here, as text; empty if none."""
     differences = []
     for name, version_here in versions.items():
         version_there = manifest_versions.get(name, "unknown")

@@ -79,7 +79,7 @@ def length(results: StudyResults, value_m: float) -> str:
 
 
 def design_length(results: StudyResults, value_m: float) -> str:
-    """Return a length that is designed for, rounded up; "none" for no value."""
+    """Return a design length, rounded up; "none" for no value."""
     return no_less(value_m, length_unit(results)) if math.isfinite(value_m) else "none"
 
 
@@ -125,7 +125,7 @@ def basis(results: StudyResults) -> Section:
 
 
 def limits(results: StudyResults) -> Section:
-    """Return the section on what the study does not say."""
+    """Return the section on the limits of the study."""
     return section(
         "study/limits",
         "Limits",

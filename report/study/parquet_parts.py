@@ -1,8 +1,8 @@
 """The rows of a study as Parquet parts: written, signed, run where they are missing.
 
 A part is written aside and renamed. Its metadata say what it is, with the SHA-256 and the HMAC of
-all of the file. A study that is killed at any moment goes on with the parts that are whole and
-signed with the user's key. Read `run_missing`.
+all of the file. A study that is killed at any moment continues with the batches that are complete
+and signed with the user's key. Read `run_missing`.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def part_name(number: int) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class About:
-    """What a part says of itself."""
+    """Metadata of a part."""
 
     identity: str  # of the runs of its study
     number: int
@@ -162,7 +162,7 @@ def signed(content: bytes, key: bytes) -> bytes:
 
 
 def peaks(content: bytes, campaign: Campaign) -> tuple[Floats, Flags]:
-    """Return what the statistics need of a part, each of shape (cases, motions).
+    """Return the data of a part needed for the statistics, each of shape (cases, motions).
 
     The largest PRD of the orientations [m], NaN if one of them has no final value; and whether the
     friction demand exceeds the coefficient at any of them.

@@ -1,4 +1,4 @@
-"""The section of a study on the prescriptive displacement: where it is enough, and permitted.
+"""The section of a study on the prescriptive displacement: where it is sufficient and permitted.
 
 A value from analysis of 0.44 m beside 0.55 m prescribed: the ratio is 0.80, and 0.55 m is enough.
 """

@@ -77,7 +77,7 @@ def _faults(inputs: Inputs, where: Where) -> Iterator[Finding]:
                 yield _at(field, f"{name} have {wrong[0]:g}", f"enter numbers {allowed}")
     # Each mat has a coefficient, by which the curves can be drawn as well.
     if study.get("mus") == "" and not inputs["mats"]:
-        yield _at("mus", "friction coefficients are missing and there is no mat", "enter either")
+        yield _at("mus", "friction coefficients are missing, and no mat is listed", "enter either")
     yield from _about_study(study, inputs)
     yield from _about_motions(study, inputs)
     for section in ("mats", "study_arrays", "motions", "buildings"):

@@ -34,7 +34,7 @@ RUNS = "runs"
 
 
 class Estimate(NamedTuple):
-    """What a study takes; the capacities of the arrays take at most as many runs more."""
+    """The size of a study; the capacities of the arrays need at most this many more runs."""
 
     cases: int
     runs: int
@@ -53,7 +53,7 @@ def planned(source: str | Path) -> tuple[StudyPlan, Path]:
 
 
 def estimate(plan: StudyPlan) -> Estimate:
-    """Return what a study takes."""
+    """Return the size of a study."""
     campaign = plan.campaign
     return Estimate(
         cases=len(campaign.cases),
@@ -135,7 +135,7 @@ def _own(done: Mapping[int, Done]) -> dict[int, Done]:
 
 
 def _taken_over(done: Mapping[int, Done]) -> list[dict[str, Any]]:
-    """Return how many runs were there, from when and on whose word, for the manifest."""
+    """Return the number of reused runs, their date and signer, for the manifest."""
     taken = []
     for is_own, word in ((True, OWN_KEY), (False, TRUST_PARTS)):
         parts = [part for part in done.values() if part.is_own is is_own]
@@ -149,7 +149,7 @@ def _taken_over(done: Mapping[int, Done]) -> list[dict[str, Any]]:
 def _meter(
     plan: StudyPlan, missing: Sequence[int], progress: Callable[[str], None]
 ) -> Callable[[Done], None]:
-    """Return what says how far the runs are, their rate, and the time left at that rate."""
+    """Return a function that prints the progress of the runs, their rate, and the time left."""
     campaign, started, ran = plan.campaign, time.monotonic(), 0
     parts = [campaign.parts[number] for number in missing]
     rows = sum(part.stop - part.start for part in parts) * len(campaign.columns)

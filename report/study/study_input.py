@@ -1,4 +1,4 @@
-"""The study workbook as data: what is studied, with which mats, arrays, motions and buildings.
+"""The study workbook as data: scope, mats, arrays, motions and buildings.
 
 Template, reader and messages come from these models; values are SI. Checks that involve more than
 one cell are in `read`. Read `StudyInput` first.
@@ -65,7 +65,7 @@ class Intensity(StrEnum):
 
 
 class NoValue(StrEnum):
-    """What a run without a value counts as in a fragility."""
+    """Treatment of a run without a value in a fragility."""
 
     EXCEEDANCE = "exceedance"
     CENSORED = "censored"
@@ -111,7 +111,7 @@ Dispersion = Annotated[float, Field(gt=0, le=2)]
 
 
 class Study(Frozen):
-    """What is studied."""
+    """Scope of a study."""
 
     title: RequiredText
     prepared_by: Text = ""
@@ -152,7 +152,7 @@ class Mat(Frozen):
 
 
 class StudyArray(Frozen):
-    """An array for which fragilities are made."""
+    """An array with fragilities."""
 
     id: Id
     mat: Id
@@ -182,7 +182,7 @@ class StudyBuilding(Frozen):
 
 
 class Hazard(Frozen):
-    """The hazard at the site, from which rates in years follow."""
+    """The hazard at the site, for annual rates."""
 
     file: Text = ""
     site: Text = ""

@@ -1,4 +1,4 @@
-"""What an array sees in its life: rates in years, and the displacement of 25 years.
+"""Service life of an array: annual rates, and the displacement in 25 years.
 
 A PRD that is exceeded once in 475 years in the mean is exceeded in 25 years with a probability of
 1 - exp(-25/475) = 5.1%.

@@ -1,8 +1,8 @@
-"""Amounts: what is found beside what is required of it, rounded as they are everywhere.
+"""Amounts: values found and required, rounded as everywhere.
 
 36.02 in required of 36.0 in provided print as 36.1 and 36.0: what is not met never reads as met.
 
-What is required and a demand are rounded up, what is provided and a capacity down. Read `Amount`.
+Required values and demands are rounded up, provided values and capacities down. Read `Amount`.
 """
 
 from __future__ import annotations
@@ -32,17 +32,17 @@ class Amount:
 
 
 def entered(value: float, quantity: Quantity = Quantity.RATIO) -> Amount:
-    """Return what is entered or measured."""
+    """Return an entered or measured value."""
     return Amount(value, Rounding.NEAREST, quantity)
 
 
 def demand(value: float, quantity: Quantity = Quantity.RATIO, mark: str = "") -> Amount:
-    """Return what is required, or a demand."""
+    """Return a required value, or a demand."""
     return Amount(value, Rounding.UP, quantity, mark)
 
 
 def capacity(value: float, quantity: Quantity = Quantity.RATIO, mark: str = "") -> Amount:
-    """Return what is provided, or a capacity."""
+    """Return a provided value, or a capacity."""
     return Amount(value, Rounding.DOWN, quantity, mark)
 
 
@@ -51,8 +51,7 @@ def in_order(
 ) -> tuple[str, str]:
     """Return a value found and its limit for print, in the order in which they are.
 
-    Two that are near each other have more digits: what is not met never reads as met, nor the
-    reverse.
+    Values close to each other get more digits: an unmet limit never reads as met, nor the reverse.
     """
     is_met = _is_met(found.value, limit.value, is_at_least=is_at_least)
     ways = [((found, limit), decimals + extra) for extra in range(_MOST_MORE + 1)]
@@ -73,7 +72,7 @@ def _is_met(found: float, limit: float, *, is_at_least: bool) -> bool:
 
 
 def shown_in_order(found: Amount, limit: Amount, *, is_at_least: bool = True) -> tuple[Show, Show]:
-    """Return how a value found and its limit are shown beside each other, in any unit."""
+    """Return the format of a value found and its limit, side by side, in any unit."""
 
     def texts(unit: Unit) -> tuple[str, str]:
         return in_order(found, limit, unit.decimals, is_at_least=is_at_least, size=unit.si)
@@ -97,7 +96,7 @@ def compared_pairs(
 
 
 def limit_texts(check: Limit, us_first: bool) -> tuple[str, str]:
-    """Return what a limit finds and the limit, with the units of its measure."""
+    """Return the value found and the limit, with the units of its measure."""
     return amount_texts(*limit_amounts(check), us_first, is_at_least=check.is_at_least)
 
 
@@ -112,7 +111,7 @@ _QUANTITIES = {
 
 
 def limit_amounts(check: Limit) -> tuple[Amount, Amount]:
-    """Return what a limit finds, and the limit."""
+    """Return the value found, and the limit."""
     quantity = _QUANTITIES[check.measure]
     if check.key and quantity is Quantity.RATIO:
         quantity = Quantity.COEFFICIENT
@@ -151,5 +150,5 @@ def amount_texts(
 
 
 def amount_text(amount: Amount, us_first: bool, *, is_both: bool = True) -> str:
-    """Return an amount with its units, which is compared with none."""
+    """Return an amount with its units that is not compared with another."""
     return amount_texts(amount, amount, us_first, is_at_least=True, is_both=is_both)[0]

@@ -1,4 +1,4 @@
-"""How the reader calls the program: `roofslip`, or the launcher's path such as `./roofslip`."""
+"""The command as typed by the user: `roofslip`, or the launcher's path such as `./roofslip`."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ _PLAIN = re.compile(r"[\w.:\\/+-]+")
 
 
 def called() -> str:
-    """Return the program as the reader typed it, which the launcher passes on."""
+    """Return the program name as typed by the user, passed on by the launcher."""
     return quoted(os.environ.get("ROOFSLIP_COMMAND") or "roofslip")
 
 
 def quoted(word: object) -> str:
-    """Return a word as the shell takes it; on Windows, as both cmd and PowerShell do."""
+    """Return a word quoted for the shell; on Windows, for both cmd and PowerShell."""
     if str(word).startswith("-"):  # a path: it would be taken for options
         word = os.path.join(".", str(word))
     if sys.platform == "win32":
@@ -35,5 +35,5 @@ def command(words: str, path: Path) -> str:
 
 
 def as_typed(text: str) -> str:
-    """Return a text whose commands begin as the reader's own."""
+    """Return a text whose commands begin as typed by the user."""
     return _COMMAND.sub(lambda _: called(), text)

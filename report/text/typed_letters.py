@@ -1,4 +1,4 @@
-"""Letters that somebody typed: those that are not seen, or only look like Latin ones.
+"""Typed characters that are invisible, or only look like Latin letters.
 
 `А1` with a Cyrillic А looks like `A1`, and would be another array.
 """
@@ -41,7 +41,7 @@ def looks(name: str) -> str:
 
 
 def foreign_letters(text: str) -> str:
-    """Return which letters of a text only look Latin, with their alphabets; empty for none."""
+    """Return the letters of a text that only look Latin, with their alphabets; empty if none."""
     foreign = dict.fromkeys(letter for letter in text if ord(letter) in _ALIKE)
     return ", ".join(
         f"'{letter}' is a {unicodedata.name(letter).split()[0].capitalize()} letter"

@@ -26,13 +26,13 @@ class UnitFormat:
     def both(
         self, value_si: float, quantity: Quantity = _LENGTH, show: Show = measured, mark: str = ""
     ) -> str:
-        """Return `81.6 in (2072 mm)` with its mark; `none` for NaN, which rests on no provision."""
+        """Return `81.6 in (2072 mm)` with its mark; `none` for NaN, without a mark."""
         if math.isnan(value_si):
             return self.none
         return pair(value_si, quantity, self.us_first, show) + mark
 
     def both_up(self, value_si: float, mark: str = "") -> str:
-        """Return a length that is required, or that a requirement follows from, rounded up."""
+        """Return a required length, or one that determines a requirement, rounded up."""
         return self.both(value_si, show=no_less, mark=mark)
 
     def short(

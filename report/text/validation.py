@@ -1,4 +1,4 @@
-"""What has been validated, and what has not: for every document that states a result."""
+"""Statement on validation, for every document with results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How an equation is set: as a picture, or its symbols and fractions as markup in text.
+"""Typesetting of an equation: as a picture, or its symbols and fractions as markup in text.
 
 Knows no values of a project: the templates add the numbers.
 """

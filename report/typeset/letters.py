@@ -1,4 +1,4 @@
-"""The letters of the fonts of a package: which can be drawn, and how wide a text is.
+"""The characters of the fonts of a package: which can be drawn, and the width of a text.
 
 Of `A1 屋` the last letter is in no font of a package; `A1 μ` has all of its letters.
 
@@ -29,7 +29,7 @@ _SURE = re.compile(r"[\n\t\x20-\x7e\xa0-\xff]*")
 
 
 def undrawable(text: str, *, is_in_figures: bool = False) -> str:
-    """Return the letters of a text that no font of a package or of this machine has."""
+    """Return the characters of a text that are in no font of a package or of this machine."""
     if _SURE.fullmatch(text):
         return ""
     letters = dict.fromkeys(_SURE.sub("", text))
@@ -40,7 +40,7 @@ def undrawable(text: str, *, is_in_figures: bool = False) -> str:
 
 @cache
 def _shipped() -> frozenset[int]:
-    """Return the letters that every font of a package has."""
+    """Return the characters that are in every font of a package."""
     from fontTools.ttLib import TTFont  # 0.1 s, and most workbooks have plain letters alone
 
     paths = sorted((TEMPLATES / "fonts").glob("*.ttf"))
@@ -67,9 +67,9 @@ def _is_on_machine(letter: str) -> bool:
 
 
 def check_letters(sheet: Sheet) -> None:
-    """Refuse the letters of a workbook that would be empty boxes in the package.
+    """Reject characters of a workbook that would be empty boxes in the package.
 
-    Raises `InputError` with the cell of every text that has such letters, and for the name of the
+    Raises `InputError` with the cell of every text with such characters, and for the name of the
     workbook.
     """
     problems = []
@@ -91,7 +91,7 @@ def check_letters(sheet: Sheet) -> None:
 
 
 def named(letters: str) -> str:
-    """Return the first few letters with their numbers."""
+    """Return the first few characters with their code points."""
     return ", ".join(f"{letter} (U+{ord(letter):04X})" for letter in letters[:_LISTED])
 
 

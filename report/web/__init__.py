@@ -1,1 +1,1 @@
-"""The page of `roofslip serve`: routes, what is open and the answers about it. Read `app`."""
+"""The page of `roofslip serve`: routes, open projects and the answers about them. Read `app`."""

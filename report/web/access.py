@@ -1,4 +1,4 @@
-"""Who may ask: a token that is good once, and the key it is exchanged for.
+"""Access control: a one-time token, and the key that it is exchanged for.
 
 The page keeps the key in its own storage and sends it in a header. A cookie would go to every other
 port of this machine as well. Read `Access`.
@@ -34,12 +34,12 @@ ENTRY = "/api/key"
 
 
 class Keys:
-    """What opens a server: its key and its tokens.
+    """The key and the tokens of a server.
 
     Parameters
     ----------
     lasting : str
-        A token that stays good, as that of a file; empty for none.
+        A reusable token, such as that of a file; empty if none.
 
     Attributes
     ----------
@@ -53,7 +53,7 @@ class Keys:
         self._tokens: set[str] = set()
 
     def token(self) -> str:
-        """Return a new token, which is good once."""
+        """Return a new one-time token."""
         token = secrets.token_urlsafe(24)
         self._tokens.add(token)
         return token
@@ -64,7 +64,7 @@ class Keys:
         return bool(token) and any(_is_same(token, each) for each in known)
 
     def exchange(self, token: str) -> str | None:
-        """Return the key for a token that is good; unless it lasts, it is used then."""
+        """Return the key for a valid token; a one-time token is then used up."""
         if not self.is_good(token):
             return None
         # Good once: the address that has it may be copied, or stay in a history.
@@ -73,7 +73,7 @@ class Keys:
 
 
 class Access:
-    """Answers requests that may not pass.
+    """Rejects requests without access.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ class Access:
                 await JSONResponse({"error": "The server ends."}, 503)(scope, receive, with_headers)
 
     def _refusal(self, request: HTTPConnection) -> Response | None:
-        """Return the answer to a request that may not pass; the page itself has no secret."""
+        """Return the rejection of a request without access; the page itself contains no secret."""
         path = request.scope["path"]
         # Another site may give its own name the address of this machine.
         if self._hosts and request.headers.get("host", "") not in self._hosts:
@@ -120,5 +120,5 @@ class Access:
 
 
 def _is_same(token: str, known: str) -> bool:
-    """Compare secrets in a time that tells nothing of them."""
+    """Compare secrets in constant time."""
     return hmac.compare_digest(token.encode(), known.encode())

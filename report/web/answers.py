@@ -1,4 +1,4 @@
-"""An assessment as the page shows it: finished strings beside the numbers that are drawn.
+"""An assessment as shown on the page: finished strings and the numbers for drawing.
 
 Computes nothing: every number and verdict is that of `report.assessment`. Read `answer`.
 """
@@ -48,7 +48,7 @@ _LESS = "Computing the effect of reduced friction."
 def answer(
     assessment: Assessment, *, is_provisional: bool, room_px: int = USUAL_PX
 ) -> dict[str, Any]:
-    """Return what the page shows, with room for its plan; provisional values have no verdict."""
+    """Return the content of the page, with the plan's width; provisional values have no verdict."""
     marks = Marks(assessment, has_daggers=False)
     fmt = unit_format(assessment)
     arrays, gaps = assessment.arrays, numbered_gaps(assessment)
@@ -155,14 +155,14 @@ def _headline(text: str, value: float) -> Mapping[str, Any]:
 
 
 def _next_step(assessment: Assessment, reasons: Sequence[Mapping[str, Any]]) -> str:
-    """Return what to do next: what is enough, else what closes the first open check."""
+    """Return the next step: a sufficient change, else the action for the first open check."""
     enough = (reason["text"] for reason in reasons if reason["level"] == "remedy")
     closing = (check.to_close for check in assessment.open)
     return next(chain(enough, filter(None, closing)), "")
 
 
 def _reasons(assessment: Assessment) -> Iterator[Mapping[str, Any]]:
-    """Yield what needs attention, each with the checks that it joins."""
+    """Yield items that need attention, each with the checks combined in it."""
     us_first = assessment.project.us_first
     joined = {sentence(check, us_first): check for check in assessment.open}
     for group in grouped_by(attention(assessment, may_run=False), _about).values():
@@ -253,7 +253,7 @@ def _between(first: str, other: str, note: str) -> Cell:
 
 
 def _tips(marks: Marks, designs: Mapping[str, Cell], gaps: Sequence[NumberedGap]) -> dict[str, str]:
-    """Return what the plan tells of each array, object and clearance, by name and by number."""
+    """Return the tips of the plan for each array, object and clearance, by name and by number."""
     assessment, fmt = marks.assessment, unit_format(marks.assessment)
     tips = {id: f"{id}: Δ {design.get('title', fmt.none)}" for id, design in designs.items()}
     tips |= {row.id: f"{row.id}: {row.kind.value}" for row in assessment.project.objects}
@@ -297,7 +297,7 @@ def _bars(marks: Marks, item: ArrayAssessment, design: Cell) -> Mapping[str, Any
 
 
 def _whole(assessment: Assessment) -> str:
-    """Return which models the values are of."""
+    """Return the models that the values are from."""
     if not assessment.has_motions:
         return "Prescriptive procedure, as in the package: no motions are entered."
     models = {run.solution.model for item in assessment.arrays for run in item.runs}

@@ -54,7 +54,7 @@ mimetypes.add_type("image/svg+xml", ".svg")
 
 
 def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
-    """Return the application, with what is uploaded and made in a folder; hosts as of `Access`."""
+    """Return the application; uploads and outputs are in a folder; hosts as in `Access`."""
     session = Session(folder)
 
     @asynccontextmanager

@@ -1,6 +1,6 @@
-"""The sliders and choices of a workbook, and what their values mean.
+"""The sliders and choices of a workbook, and the meaning of their values.
 
-Only those are offered that the cells of the workbook can express. Read `controls`.
+Only those that the cells of the workbook can express are offered. Read `controls`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def controls(opened: OpenProject) -> Mapping[str, Any]:
 
 
 def shown(opened: OpenProject) -> Mapping[str, str]:
-    """Return what the values amount to: those of the workbook as changed."""
+    """Return the resulting values of the workbook."""
     data = opened.sheet.project
     return {
         "friction": _grouped(data.arrays, lambda array: mu_words(array.friction)),
@@ -58,7 +58,7 @@ def shown(opened: OpenProject) -> Mapping[str, str]:
 
 
 def check(opened: OpenProject, values: Values) -> None:
-    """Refuse values that no slider or choice of the workbook has, all in one input error."""
+    """Reject values that no slider or choice of the workbook has, all in one input error."""
     known = opened.controls
     sliders = {item["id"]: item for item in known["sliders"]}
     choices = {item["id"]: item for item in known["choices"]}

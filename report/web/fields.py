@@ -1,4 +1,4 @@
-"""The errors of a workbook with their rows, and its tables: fields that the page fills in.
+"""The errors of a workbook with their rows, and its tables: fields to fill in on the page.
 
 Read `problems`, then `tables`; `typed_cells` is what was typed into both.
 """
@@ -145,7 +145,7 @@ def _table(book: OpenBook, section: SheetSection) -> Mapping[str, Any]:
 
 
 def typed_cells(typed: Mapping[str, str]) -> Mapping[CellPosition, float | str | None]:
-    """Return what was typed by cell, such as `Site!B26`, as Excel would have it."""
+    """Return the typed values by cell, such as `Site!B26`, as in Excel."""
     return dict(_typed_cell(*each) for each in typed.items())
 
 

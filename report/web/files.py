@@ -1,4 +1,4 @@
-"""Files of a browser, stored in a folder of their own, and what the page gives back.
+"""Browser uploads, stored in a folder of their own, and downloads from the page.
 
 Read `received`, then `package_routes`.
 """
@@ -27,7 +27,7 @@ from solver.errors import InputError
 
 
 def is_alone(workbook: Path, folder: Path) -> bool:
-    """Whether a workbook was sent without any other file."""
+    """Whether a workbook was uploaded without any other file."""
     return all(path == workbook or path.is_dir() for path in folder.rglob("*"))
 
 
@@ -89,7 +89,7 @@ async def _form(request: Request) -> FormData:
 
 
 def _check_length(request: Request, maximum: int) -> None:
-    """Refuse a body that is too long, or does not say how long it is, as that of every browser."""
+    """Reject a body that is too long, or does not state its length, as every browser does."""
     length = request.headers.get("content-length", "")
     if not length.isdecimal() or int(length) > maximum:
         raise HTTPException(413, f"More than {maximum / MB:g} MB; drop fewer records")

@@ -1,4 +1,4 @@
-"""What is computed for the page: each job from a workbook and values to data for JSON.
+"""Computations for the page: each job from a workbook and values to data for JSON.
 
 A process of the page runs `perform`, and this module is imported there alone: the server starts
 without the solver. Knows no request. Read `perform`, then `answer_at`.
@@ -49,7 +49,7 @@ Json = Mapping[str, Any]
 
 
 def perform(job: Json) -> Json:
-    """Do a job named by its key `do`, and return its answer, or why there is none.
+    """Do a job named by its key `do`, and return its answer, or the reason for a failure.
 
     Beside a complete answer is its `reference`, which the jobs of sliders that move get. Workbooks
     that are wrong, and values that no workbook can have, are problems; anything else is an internal
@@ -122,7 +122,7 @@ def _lacks(workbook: Path) -> list[str]:
 
 
 def answer_at(workbook: Path, job: Json) -> Json:
-    """Return the answer at values: of the largest runs while a slider moves, else complete."""
+    """Return the answer at values: from the largest runs while a slider moves, else complete."""
     given = _open(workbook).at(job["values"])
     if job["moving"]:
         reply = given.moving(job.get("reference", {}))

@@ -1,4 +1,4 @@
-"""What the page has open: a project with its motions and its runs, at any values of its controls.
+"""A project open on the page: its motions and runs, at any values of its controls.
 
 A value is nothing but other contents of cells: values make another project of the same workbook,
 and `report.assessment` does the rest. Read `OpenProject`, then `report.web.controls`.
@@ -116,7 +116,7 @@ class OpenProject:
         )
 
     def assessed(self, extent: Extent = Extent.WHOLE) -> Assessment:
-        """Return the assessment, with what is asked for or more."""
+        """Return the assessment, with the requested extent or more."""
         known = next((done for of, done in self._done.items() if of >= extent), None)
         self._done[extent] = known or self._assessed(self.runs, extent)
         return self._done[extent]

@@ -1,6 +1,6 @@
-"""An answer as the page draws it: each element that follows it as HTML.
+"""An answer as drawn on the page: each updated element as HTML.
 
-Computes nothing and words nothing: `parts.html` has a macro for each element. Read `drawn`.
+Computes nothing and contains no text: `parts.html` has a macro for each element. Read `drawn`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The roof plan for the page: what `report.drawing.on_paper` places, as elements of SVG.
+"""The roof plan for the page: the items placed by `report.drawing.on_paper`, as SVG elements.
 
 Placed on the widest sheet that the page has room for; the page places nothing. Reads finished
 numbers; the package paints the same in `report.figures.plan_figure`.

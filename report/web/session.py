@@ -1,7 +1,7 @@
-"""The session of one engineer: projects that are open, and two processes that answer about them.
+"""The session of one engineer: open projects, and two processes that answer requests on them.
 
-One process answers sliders that move, the other all else, and moves where it alone is free; one
-that ends or takes too long is replaced. Knows no route and no physics. Read `Session.ask`.
+One process answers moving sliders, the other everything else, and moves if only it is free; a
+process that ends or takes too long is replaced. Knows no route and no physics. Read `Session.ask`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ _TRIES = 2
 
 
 class RefusedError(Exception):
-    """What a workbook could not have, with each problem as data."""
+    """Values that a workbook could not have, with each problem as data."""
 
     def __init__(self, sentence: str, problems: Sequence[Mapping[str, Any]]) -> None:
         super().__init__(sentence)
@@ -53,7 +53,7 @@ class StaleError(Exception):
 
 
 class LostError(Exception):
-    """The process that was asked ended, or was ended for the time it took."""
+    """The process handling a request ended, or was stopped because it took too long."""
 
 
 class ClosedError(Exception):
@@ -108,7 +108,7 @@ class Session:
 
     @property
     def opened(self) -> str:
-        """Name of what was opened last, which no other upload has."""
+        """Unique name of the project opened last."""
         return list(self._open)[-1]
 
     def workbook(self, opened: str | None = None) -> Path:

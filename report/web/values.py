@@ -1,4 +1,4 @@
-"""From values of sliders and choices to what would be typed into the workbook.
+"""Converts values of sliders and choices into entries of the workbook.
 
 A value is nothing but other contents of cells, so that the workbook written from it is assessed
 alike; no physics and no rule. Read `typed` first, then `report.web.controls`.
@@ -31,7 +31,7 @@ _MU_DIGITS, _SLOPE_DIGITS, _PLAN_DIGITS = 4, 4, 6
 
 
 def typed(sheet: Sheet, scales: Mapping[str, float], values: Values) -> dict[Place, Typed]:
-    """Return what the values of sliders and choices put into the cells of a workbook.
+    """Return the cell entries for the values of sliders and choices.
 
     `scales` is the factor on the records of each motion, as the workbook has it.
     """

@@ -1,4 +1,4 @@
-"""What the views of the page draw: one run in time, PRD over friction and slope, paths in plan.
+"""Data for the views of the page: one run in time, PRD over friction and slope, paths in plan.
 
 Each function answers from a finished assessment and runs again only what a drawing needs. Values
 are those of the package; a number that does not exist is None. Read `slide`.

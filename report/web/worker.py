@@ -1,4 +1,4 @@
-"""The processes of the page, and the packages and suites of motions that they make.
+"""The processes of the page, and the packages and suites of motions that they generate.
 
 They read untrusted files: what they return is JSON, and is never unpickled. Read `made`, then
 `Packages`.
@@ -38,7 +38,7 @@ PROJECT = "project.zip"
 
 
 def begun(folder: Path, told: Callable[[str], object] = lambda _: None) -> WorkerProcess:
-    """Start a process, with what it leaves behind in a folder."""
+    """Start a process whose leftover files are in a folder."""
     return WorkerProcess(_prepare, told=told, within=folder)
 
 
@@ -47,12 +47,12 @@ def _prepare() -> None:
 
 
 def is_full(error: BaseException | None) -> bool:
-    """Whether there is no room for what was to be written."""
+    """Whether there is no disk space for the files to write."""
     return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
 
 
 def made(workbook: Path, out: Path) -> str:
-    """Make a package, telling its steps; return why there is none, in the words of the page."""
+    """Build a package, reporting its steps; return why it failed, in the page's terms."""
     from report.making import make
 
     return _failure(lambda: make(workbook, out, None, lambda step: tell(in_words(step))))
@@ -89,7 +89,7 @@ def motions_made(workbook: Path, out: Path) -> str:
 
 
 def _failure(do: Callable[[], object]) -> str:
-    """Do something; return why it failed, in the words of the page."""
+    """Do something; return the reason for a failure, in the page's terms."""
     try:
         do()
     except Exception as error:
@@ -130,7 +130,7 @@ _STEPS: Mapping[Task, int] = {made: len(STEPS), motions_made: MOTIONS + 2}
 
 
 class State(StrEnum):
-    """What becomes of a package."""
+    """State of a package."""
 
     RUNNING = "running"
     DONE = "done"
@@ -167,7 +167,7 @@ class Package:
 
     @property
     def about(self) -> Mapping[str, Any]:
-        """How far it is, or what became of it."""
+        """Its progress or result."""
         return {
             "id": self.id,
             "values": self.values,

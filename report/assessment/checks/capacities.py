@@ -42,8 +42,8 @@ def _interconnection(data: ProjectInput, array: Array, required_n: float) -> Che
         **_provided(array.interconnection_n, required_n, Quantity.WEIGHT),
         clause=strength.clause + dagger(strength),
         actor=Actor.SUPPLIER,
-        remedy="Show that the racking provides the required strength between its parts, and enter "
-        "it on the Arrays worksheet.",
+        remedy="Document that the racking provides the required strength between its parts, and "
+        "enter this strength on the Arrays worksheet.",
         places=_places(data, array, "interconnection_n"),
     )
 

@@ -152,7 +152,7 @@ def _covered(inputs: Inputs, start_s: float, end_s: float) -> Iterator[Finding]:
 
 
 def _design_spectrum(inputs: Inputs, ground: list[int], where: Where) -> Iterator[Finding]:
-    """Yield what the design spectrum lacks if a ground motion is scaled to it, and a short T_L."""
+    """Yield missing inputs of the design spectrum if a motion is scaled to it, and a short T_L."""
     site = inputs["site"][0] if inputs["site"] else {}
     parameters = site_parameters(site)
     # NaN stands for what could not be read: it is neither missing nor too small.

@@ -53,7 +53,7 @@ class MotionInput(Frozen):
 
     @property
     def drift_basis(self) -> str:
-        """Who states by what that a permanent displacement is real; empty unless both are given."""
+        """Who confirms a permanent displacement, and the source; empty unless both are entered."""
         is_stated = self.drift_by and self.drift_source
         return f"{self.drift_by}, {self.drift_source}" if is_stated else ""
 

@@ -120,7 +120,7 @@ class Entry:
 
     @property
     def expected(self) -> Bounds:
-        """The range beyond which a number is marked, in SI: the usual one, or else the allowed."""
+        """The range outside which a number is marked, in SI: typical, or else allowed."""
         if self.usual is None:
             return self.bounds
         low, high = self.usual

@@ -93,7 +93,7 @@ def _text(item: Overwritten, count: int) -> str:
 
 
 def _title(book: OpenBook, position: CellPosition) -> str:
-    """Return what a cell computes: the heading of its column, or else the label of its row."""
+    """Return the title of a computed cell: its column heading, or else the label of its row."""
     sheet = book.book[position.sheet]
     for section in SECTIONS:
         area = table_area(book, section) if section.is_table else None

@@ -38,7 +38,7 @@ def test_what_is_on_a_hidden_layer_is_left_out_with_its_reason(tmp_path, state, 
     found = plan(sketch.saved(tmp_path))
     assert names(found) == ["A1"]
     (only,) = reasons(found)
-    assert only[0] == f"on a layer that is {state}"
+    assert only[0] == {"frozen": "on a frozen layer", "off": "on a layer that is turned off"}[state]
     assert only[1].casefold() == "object"
 
 
