@@ -194,11 +194,13 @@ def _category_and_force(data: ProjectInput) -> Iterator[_Row]:
         is_essential=site.risk_category is RiskCategory.IV,
     )
     by_short, by_long, near_fault = categories
-    by_s_1 = near_fault or f"below {hazard.NEAR_FAULT_S_1_G:g}{NO_BREAK}g"
     at_1_s = f"{by_long} (1{NO_BREAK}s)" if by_long else symbol("S_D1") + f" {_NOT_ENTERED}"
-    source = Markup("the most severe of {} (short period), {}, {} {}").format(
-        by_short, at_1_s, symbol("S_1"), _NOT_ENTERED if site.s_1_g is None else by_s_1
-    )
+    if near_fault:
+        by_s_1 = Markup("{} ({})").format(near_fault, symbol("S_1"))
+    else:
+        below = f"below {hazard.NEAR_FAULT_S_1_G:g}{NO_BREAK}g"
+        by_s_1 = symbol("S_1") + f" {_NOT_ENTERED if site.s_1_g is None else below}"
+    source = Markup("the most severe of {} (short period), {}, {}").format(by_short, at_1_s, by_s_1)
     # Letters, A the mildest; a category that is not known is an empty text, below all of them.
     category = max(categories) + site.sdc_mark
     yield _row("Seismic design category from these values", "", category, clause("sdc"), source)

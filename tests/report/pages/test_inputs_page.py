@@ -239,7 +239,7 @@ def test_the_values_are_those_of_a_permit_sheet_or_category_e_near_a_fault(full)
     assert "not entered" not in found.values()
     found = rows(package(s_ds_g=1.5, s_1_g=0.8, sdc="E"))
     assert found[CATEGORY]["Source"] == (
-        "the most severe of D (short period), not entered (1 s), S1 E"
+        "the most severe of D (short period), SD1 not entered, E (S1)"
     )
     assert found[CATEGORY]["Value"] == found["SDC"]["Value"] == "E"
     confirmed = values(package(s_ds_g=1.5, s_1_g=0.8, s_d1_g=0.9, sdc="E"))
