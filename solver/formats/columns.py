@@ -17,7 +17,6 @@ from solver.model import Floats
 # not rise evenly, as times of loggers do not.
 _FEW, _MANY = 5, 12
 _EVEN_WITHIN, _OFTEN, _NEARLY = 0.01, 0.1, 0.9  # of a step, of all steps
-_WIDER = 2.0  # the later half of the steps / the earlier one
 SIDE_BY_SIDE = "tables side by side; use only one of them"
 _MAGNITUDE_WITHIN = 0.01  # of its peak: digits are printed apart
 
@@ -56,15 +55,6 @@ def magnitudes(table: Floats, columns: Sequence[int], named: Sequence[int]) -> l
         ):
             lengths.append(i)
     return lengths
-
-
-def widening(values: Floats) -> bool:
-    """Whether values rise by ever wider steps, as periods and intensities do, and no times."""
-    steps = np.diff(values)
-    # Times that are even up to a gap have a first half of equal steps, which no table of periods
-    # has.
-    first, last = np.array_split(steps, 2)
-    return bool(steps.min() > 0.0 and last.mean() > _WIDER * first.mean() and np.ptp(first) > 0.0)
 
 
 def counting(table: Floats) -> list[int]:

@@ -44,7 +44,7 @@ _MAGNITUDE = re.compile(
     r"|mag|magnitude|norm|modulus|srss)(?![a-z])|\|.*\||(?:at|tgf)$",
     re.IGNORECASE,
 )
-ACCELERATION = re.compile(r"(?<![a-z])acc", re.IGNORECASE)
+ACCELERATION = re.compile(r"(?<![a-z])ac(?:c|el)", re.IGNORECASE)
 
 _ABSCISSAS = re.compile(
     r"(?:freq|frequency|frequencies|periods?|tn)(?![a-z])|.*\bhz\b", re.IGNORECASE
@@ -64,8 +64,8 @@ _SPECTRUM = re.compile(
     re.IGNORECASE,
 )
 _QUANTITY = re.compile(
-    r"\W*(?:(?!peak|max|wave|shear)\w+\W+){0,3}?(vel|velocity|velocities|disp|displacements?)"
-    r"(?:\W+(?:time|history|histories|series|record|trace|data|in)\b|\W*[\[(,;]|\W*$)",
+    r"\W*(?:(?!peak|max|wave|shear)\w+\W+){0,3}?(vel|velocit(?:y|ies)|velocidad(?:es)?"
+    r"|disp|displacements?|desplazamientos?)(?:\W+(?:time|history|histories|series|record|trace|data|in)\b|\W*[\[(,;]|\W*$)",
     re.IGNORECASE,
 )
 

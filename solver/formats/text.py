@@ -26,7 +26,6 @@ from solver.formats.columns import (
     pairs,
     remedy,
     rising,
-    widening,
 )
 from solver.formats.headings import Layout, laid_out
 from solver.formats.likely_kinds import likely_text
@@ -89,6 +88,7 @@ def read(source: Source) -> MotionFile:
         dt_s, columns, time_notes = _timed(layout, table, columns)
     else:
         dt_s, time_notes = _untimed_step(layout, table.shape[1]), ()
+        _check_both_ways(layout, table)
     several = len(taken) > 1
     channels = [
         Record(
@@ -265,12 +265,6 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
     # A record may be matched to a spectrum: only a spectrum is nowhere below zero.
     is_positive = len(numbers) > _FEW and bool((numbers >= 0.0).all())
     is_headed = any(heading.kind is Kind.ACCELERATION for heading in layout.headings)
-    if is_positive and table.shape[1] > 1 and not is_headed and widening(table[:, 0]):
-        raise InputError(
-            f"{layout.source.at(layout.first)}: found no value below zero, and steps in the first"
-            " column that widen: this is a spectrum or a curve, no record; use accelerations by"
-            " time, or a heading such as time_s,acc_g if they are"
-        )
     is_said = is_headed or any(phrases.is_of_acceleration(line) for _, line in layout.remarks)
     for index, line in layout.remarks:
         place = layout.source.at(index)
@@ -280,11 +274,29 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
                 " spectrum, not a record; use accelerations by time"
             )
         if not is_said and (quantity := phrases.other_quantity(line)):
-            heading = "acc_g" if table.shape[1] == 1 else "time_s,acc_g"
+            heading = _heading_of(table)
             raise InputError(
                 f"{place}: found {quantity!r} but no acceleration; use the acceleration file,"
                 f" or a heading such as {heading} if the values are accelerations"
             )
+
+
+def _heading_of(table: Floats) -> str:
+    """Return a heading that would say that a table is accelerations."""
+    return "acc_g" if table.shape[1] == 1 else "time_s,acc_g"
+
+
+def _check_both_ways(layout: Layout, table: Floats) -> None:
+    """Refuse values without a heading that go one way only: a spectrum or a curve."""
+    is_headed = any(heading.kind is Kind.ACCELERATION for heading in layout.headings)
+    values = table[:, 1:] if table.shape[1] > 1 else table
+    is_curve = len(table) > _FEW and bool((values >= 0.0).all() and values.any())
+    if is_curve and not (is_headed or layout.per_line):
+        raise InputError(
+            f"{layout.source.at(layout.first)}: found no value below zero: this is a spectrum or a"
+            f" curve, not a record; use accelerations by time, or a heading such as"
+            f" {_heading_of(table)} if they are"
+        )
 
 
 def _left_out(layout: Layout, table: Floats, columns: Sequence[int]) -> dict[int, str]:
@@ -337,6 +349,7 @@ def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
     in_line = _pairs_in_line(layout, table) or 1
     _check_decimal_comma(layout, table[:, 0])
     unit_s = _unit_of_times(layout, table)
+    _check_both_ways(layout, table)
     t_s = unit_s * table[:, 0]
 
     def line_of(row: int) -> int:

@@ -72,6 +72,7 @@ _START_FORMATS = (
 )
 _LONGEST_HEADING, _FEWEST, _NEEDED = 120, 2, ("count", "unit")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+_VALUED = re.compile(r"[:=]\s*[+-]?\.?\d", re.ASCII)
 _NAMED_PEAK = re.compile(r"\(([NSEWUDVZ-]{1,3})\)\s*([+-]?[\d.]+)", re.ASCII)
 _NAME = re.compile(r"[A-Z]-?[A-Z]?", re.IGNORECASE)
 _UNCORRECTED = re.compile(r"\b(?:RAW|UNCORRECTED)\b", re.IGNORECASE)
@@ -118,6 +119,14 @@ def read(source: Source) -> MotionFile:
     quantity, line = heading.get("quantity")[1:]
     if quantity and ("ACCELERATION" not in quantity.upper() or "SPECTRUM" in quantity.upper()):
         raise InputError(f"{source.at(line)}: found {quantity.lower()}; use a file of acceleration")
+    # Of a quantity with its value, such as a peak velocity, the file may still be accelerations.
+    titles = [] if any(map(phrases.ACCELERATION.search, top)) else enumerate(top)
+    for index, title in titles:
+        if (other := phrases.other_quantity(title)) and not _VALUED.search(title):
+            raise InputError(
+                f"{source.at(index)}: found {other!r} but no acceleration; use the acceleration"
+                " file, or correct the line"
+            )
     stated = source.agreed(heading.steps)
     dt_s = source.step(stated)
     names = _names(source, heading)

@@ -312,15 +312,24 @@ PERIODS = (0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1, 1.5
 
 
 @pytest.mark.parametrize("head", ["", "# site 1\n", "iml,poe\n"])
-def test_a_curve_over_widening_steps_is_no_record(file, head):
-    rows = "".join(f"{period:g},{0.3 / (1 + period):.4f}\n" for period in PERIODS)
+@pytest.mark.parametrize("steps", ["widening", "even"])
+def test_a_curve_without_a_heading_is_no_record(file, head, steps):
+    periods = PERIODS if steps == "widening" else [0.1 * (k + 1) for k in range(16)]
+    rows = "".join(f"{period:g},{0.3 / (1 + period):.4f}\n" for period in periods)
     (problem,) = problems_of(file(head + rows))
     assert problem == (
-        f"roof.csv:{1 + bool(head)}: found no value below zero, and steps in the first column that"
-        " widen: this is a spectrum or a curve, no record; use accelerations by time, or a heading"
-        " such as time_s,acc_g if they are"
+        f"roof.csv:{1 + bool(head)}: found no value below zero: this is a spectrum or a curve, not"
+        " a record; use accelerations by time, or a heading such as time_s,acc_g if they are"
     )
     assert read_record(file(f"time_s,acc_g\n{rows}")).name == "roof.csv"
+
+
+def test_a_column_without_a_value_below_zero_or_a_heading_is_no_record(file):
+    column = "".join(f"{0.3 / (1 + k):.4f}\n" for k in range(16))
+    (problem,) = problems_of(file(column), dt_s=0.01)
+    assert problem.endswith("a heading such as acc_g if they are")
+    assert len(read_record(file(f"acc_g\n{column}"), dt_s=0.01).a_mps2) == 16
+    assert len(read_record(file("0\n" * 16), dt_s=0.01, units="g").a_mps2) == 16
 
 
 @pytest.mark.parametrize(

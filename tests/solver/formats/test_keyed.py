@@ -142,6 +142,19 @@ def test_what_a_heading_states_must_be_so(file, content, change, problem):
     assert told[0].startswith(f"roof.csv{problem}")
 
 
+@pytest.mark.parametrize("title", ["Velocity", "QUANTITY: VELOCITY", "Tipo: Velocidad"])
+def test_a_title_of_another_quantity_is_not_overruled_by_the_unit(file, title):
+    content = SPANISH.replace("Aceleracion maxima (cm/s2)", "PGA")
+    (problem,) = input_problems(read_motion_file, file(f"{title}\n{content}"))
+    other = title.split()[-1].lower()
+    assert problem == (
+        f"roof.csv:1: found {other!r} but no acceleration; use the acceleration file, or correct"
+        " the line"
+    )
+    valued = file(f"Peak displacement (cm): 3.1\nVelocity (cm/s): 12.3\n{content}")
+    assert len(read_record(valued).a_mps2) == 200
+
+
 def test_a_unit_that_is_not_stated_is_that_of_the_caller(file):
     path = file(SPANISH.replace("Unidades: cm/seg2\n", ""))
     assert read_record(path, units="gal").a_mps2 == pytest.approx(0.01 * np.array(WAVE))

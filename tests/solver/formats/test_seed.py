@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from fixtures.errors import input_problems
+from fixtures.spaces import spaced
 from solver.errors import InputError
 from solver.formats import read_motion_file
 
@@ -67,7 +68,9 @@ def test_raw_counts_are_divided_by_the_sensitivity_that_is_told(file, is_station
     assert (record.dt_s, str(motion_file.start)) == (0.01, "2024-01-02 00:00:00")
     assert record.a_mps2 == pytest.approx(COUNTS / PER_MPS2, rel=1e-7)
     said = "raw counts / 213740 per m/s2, the sensitivity at 1 Hz; the response at other"
-    assert motion_file.notes[0].startswith(said if is_station else "uncorrected: the mean is")
+    assert spaced(motion_file.notes[0]).startswith(
+        said if is_station else "uncorrected: the mean is"
+    )
 
 
 @pytest.mark.parametrize("content", [miniseed(FLOATS), sac(FLOATS)])
@@ -123,9 +126,9 @@ def test_each_component_is_a_channel_and_without_obspy_what_to_install_said(file
         (miniseed(0 * COUNTS), "found XX.ABC..HNE: raw counts require the"),
         (sac(COUNTS), "found .ABC..: raw counts require the"),
         (sac(FLOATS, 7), ".ABC.. has velocity; use a record of acceleration"),
-        (miniseed(COUNTS)[:500], "damaged or cut miniSEED; use the complete file"),
-        (miniseed(COUNTS) * 2 + b"000002D ABC", "damaged or cut miniSEED; use the complete file"),
-        (sac(FLOATS)[:-9], "damaged or cut SAC; use the complete file"),
+        (miniseed(COUNTS)[:500], "damaged or truncated miniSEED; use the complete file"),
+        (miniseed(COUNTS) * 2 + b"000002D ABC", "damaged or truncated miniSEED; use the complete"),
+        (sac(FLOATS)[:-9], "damaged or truncated SAC; use the complete file"),
         (miniseed(COUNTS) + miniseed(COUNTS, 5), "XX.ABC..HNE has 2 pieces with gaps or overlaps"),
     ],
 )  # fmt: skip
