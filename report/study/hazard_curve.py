@@ -55,9 +55,12 @@ _WORD = re.compile(r"[^\s_\[\](),;:]+")
 # In a line of text above them.
 _OF_OTHERS = re.compile(
     r"\bPG[VD]\b|\bprobabilit|\breturn period|\bpoe\b|\d ?(?:yrs?|years)\b"
-    r"|\bSa ?\( ?(?!1(?:\.0+)? ?s?\))",
+    r"|\bP?SA[ _(@=T]*(?!1(?:\.0+)?(?![\d.]))\.?\d"
+    # After a latitude, S is south.
+    r"|(?<![\d.])(?!1(?:\.0+)?[ -]?s)\d*\.?\d+[ -]?(?-i:s)(?:ec|econds?)?\b",
     re.IGNORECASE,
 )
+_SPECTRAL = re.compile(r"\bspectral\b|\bP?SA\b", re.IGNORECASE)
 _MEASURE = {False: "PGA [g]", True: "Sa(1 s) [g]"}
 _RATE = "annual rate [1/year] (1 / T of a return period T, -ln(1 - p) / n of p in n years)"
 
@@ -137,7 +140,9 @@ def _wrong_headings(row: Sequence[str], is_spectral: bool) -> Iterator[str]:
         named = [name for name, pattern in _NAMES.items() if pattern.search(text)]
         # A curve of probabilities in 50 years that is taken for one of annual rates is 50 times
         # too high.
-        if is_of_another(text) or _OF_OTHERS.search(text) or named == [not is_spectral]:
+        is_spectral_alone = not is_spectral and bool(_SPECTRAL.search(text))
+        is_other = named == [not is_spectral] or is_spectral_alone
+        if is_other or is_of_another(text) or _OF_OTHERS.search(text):
             yield f"has the heading '{text[:60]}'; enter {measure} and {_RATE}, or delete it"
         return
     for heading, known, accepted in zip(

@@ -355,6 +355,8 @@ def test_files_of_two_columns_and_of_the_tool_are_read():
         ("iml,lambda", True),
         ("PGA [g],MAFE", False),
         ("PSA(T=1.0s) [g],AFOE", True),
+        ("Site 34.05 S\nim,rate", False),
+        ("Spectral acceleration, 1.0 sec, 2018 model\nim,rate", True),
     ],
 )
 def test_a_heading_of_the_measure_and_the_rate_is_read(heading, is_spectral):
@@ -377,6 +379,10 @@ def test_a_heading_of_the_measure_and_the_rate_is_read(heading, is_spectral):
         ("# intensities in cm/s2\nim,rate", ["# intensities in cm/s2"], False),
         ("# PGV\n", ["# PGV"], False),
         ("# Sa(1 s)\n", ["# Sa(1 s)"], False),
+        ("SA 0.2 s\nim,rate", ["SA 0.2 s"], False),
+        ("Spectral acceleration\nim,rate", ["Spectral acceleration"], False),
+        ("PSA 0.2\nim,rate", ["PSA 0.2"], True),
+        ("T = 0.2 sec\nim,rate", ["T = 0.2 sec"], True),
         ("# Sa(0.5 s)\n", ["# Sa(0.5 s)"], True),
         ("# acceleration, cm/s2\n", ["# acceleration, cm/s2"], False),
         ("# PoE, 50 yr\n", ["# PoE, 50 yr"], False),
