@@ -36,10 +36,6 @@ _R = TypeVar("_R")
 Names = Mapping[str, Sequence[str]]
 """Names of orientations by the id of the motion."""
 
-Reference = Mapping[str, Names]
-"""By array and motion, the orientations with the largest PRDs: data for JSON."""
-
-
 _Key = tuple[Hashable, ...]  # the scene first
 
 
@@ -116,14 +112,13 @@ class MotionRun:
 class Runs:
     """The runs of arrays under the motions of one suite; each is started once and cached.
 
-    Arrays with one slope and friction share them. Knows no rule. The orientations `known` of an
-    array under a motion are run alone, which is not for design; nor is a larger tolerance.
+    Arrays with one slope and friction share them. Knows no rule. A larger tolerance is not for
+    design.
     """
 
-    def __init__(
-        self, known: Reference | None = None, tolerance: float = DEFAULT.tolerance
-    ) -> None:
-        self._known, self._tolerance = known or {}, tolerance
+    def __init__(self, tolerance: float = DEFAULT.tolerance) -> None:
+        self._tolerance = tolerance
+        self._known: Mapping[str, Names] = {}
         # Runs in two axes and of rows release the GIL: two proceed in parallel.
         self._pool = ThreadPoolExecutor(THREADS)
         self._motions: dict[str, Motion] = {}
@@ -141,8 +136,8 @@ class Runs:
         copied._done = _of(scenes, self._done)
         return copied
 
-    def knowing(self, known: Reference) -> Runs:
-        """Return the same runs, but only some orientations for some arrays."""
+    def knowing(self, known: Mapping[str, Names]) -> Runs:
+        """Return the same runs, but only some orientations for some arrays: not for design."""
         # Shallow: what either of them begins is there for both.
         runs = copy(self)
         runs._known = known
@@ -215,12 +210,6 @@ def run_motion(array: Array, motion: Motion) -> MotionRun:
     return motion_run(
         motion, [run_oriented(array, motion, orientation) for orientation in motion.orientations]
     )
-
-
-def largest_two(done: MotionRun) -> list[str]:
-    """Return the names of the orientations with the two largest PRDs."""
-    runs = sorted(done.runs, key=lambda run: nan_is_worst(run.prd_m), reverse=True)
-    return [run.orientation.name for run in runs[:2]]
 
 
 def motion_run(motion: Motion, runs: Sequence[OrientedRun]) -> MotionRun:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from enum import IntEnum
 from typing import Any
 
-from report.assessment.assessment import NOT_BY_VELOCITY, Assessment, low_velocity
+from report.assessment.assessment import Assessment, low_velocity
 from report.assessment.checks.motion_checks import shaking_acceptance
 from report.assessment.design.arrays import assess_array, marked
 from report.assessment.design.clearances import by_id, check_clearance, marked_gap
@@ -36,9 +36,10 @@ class Extent(IntEnum):
     """Scope of an assessment beyond arrays and clearances; each value includes those before it."""
 
     ALONE = 0  # nothing: of another input that a project is compared with
-    AS_GIVEN = 1  # rows of linked blocks, and the low-velocity coefficient alone
+    AS_GIVEN = 1  # rows of linked blocks
     LESS_FRICTION = 2  # less friction, half of the runs: an OK may be one with conditions
-    WHOLE = 3  # what the project comes to without what checks ask for
+    OPEN = 3  # what the project comes to without what checks ask for that are not satisfied
+    WHOLE = 4  # and without what the others do; the low-velocity coefficient alone
 
 
 def assess(
@@ -75,7 +76,7 @@ def _assess(
     # Those of other friction follow without a pause, while motions and arrays are checked.
     if extent >= Extent.LESS_FRICTION:
         runs.begin(less_friction.arrays, motions)
-    if extent >= Extent.AS_GIVEN:
+    if extent >= Extent.WHOLE:
         runs.begin(slow.arrays, motions)
     acceptance = acceptance or shaking_acceptance(shaking, goals)
     arrays = tuple(
@@ -110,12 +111,14 @@ def _assess(
     )
     if extent >= Extent.AS_GIVEN and motions:
         rows = (assess_linked(runs, rules, row, by_id(arrays, row.array)) for row in data.links)
-        slower = NOT_BY_VELOCITY if slow is data else low_velocity(done, reassess(done, slow))
-        done = replace(done, linked=tuple(rows), low_velocity=slower)
+        done = replace(done, linked=tuple(rows))
     if extent >= Extent.LESS_FRICTION:
         done = replace(done, at_reduced_friction=reassess(done, less_friction))
-    if extent >= Extent.WHOLE:
-        done = replace(done, otherwise=prices(done, reassess))
+    if extent >= Extent.WHOLE and motions and slow is not data:
+        done = replace(done, low_velocity=low_velocity(done, reassess(done, slow)))
+    if extent >= Extent.OPEN:
+        otherwise = prices(done, reassess, of_all=extent is Extent.WHOLE)
+        done = replace(done, otherwise=otherwise)
     return done
 
 

@@ -25,25 +25,27 @@ from report.text.names import ranged
 from report.text.units import Quantity, nan_is_worst, no_less, pair
 
 _REVIEW, _RULE_SET = "peer_review", "rule_set"
+# Priced in a package where they are satisfied, too: a plan checker asks what rests on them.
+_ALWAYS = {_REVIEW, _RULE_SET, VELOCITY_ROW}
 
 
 def prices(
-    done: Assessment, reassess: Callable[[Assessment, ProjectInput, Collection[str]], Assessment]
+    done: Assessment,
+    reassess: Callable[[Assessment, ProjectInput, Collection[str]], Assessment],
+    *,
+    of_all: bool = True,
 ) -> Mapping[str, str]:
     """Return the result for a project without the items required by checks, by their ids.
 
     Of checks that are open, where a displacement or a verdict is another one then; of a peer
-    review and a letter of acceptance on file, and of friction by velocity, too. `reassess` is
-    given another input, and the motions that it is without.
+    review and a letter of acceptance, and of friction by velocity, where these are notes, and of
+    all also where they are on file. `reassess` is given another input, and the motions that it is
+    without.
     """
     sentences = dict[str, str]()
-    # The last three are priced where they are satisfied, too: a plan checker asks what rests on
-    # them.
-    asked_for = {check.id for check in done.checks if check.is_open} | {
-        _REVIEW,
-        _RULE_SET,
-        VELOCITY_ROW,
-    }
+    asked_for = {check.id for check in done.checks if check.is_open}
+    unmet = {check.id for check in done.checks if not check.is_satisfied}
+    asked_for |= _ALWAYS if of_all else _ALWAYS & unmet
     for ids, changed, motions, how in _others(done):
         if (motions or changed is not done.project) and not asked_for.isdisjoint(ids):
             sentences |= dict.fromkeys(ids, _price(done, reassess(done, changed, motions), how))

@@ -38,7 +38,7 @@ _ARRAY_HEADS = ["Array", _MEAN, "Design Δ", "Prescriptive", "D/C", "Verdict"]
 _GAP_HEADS = ["No.", "From, to", "Provided", "Required", "D/C", "Verdict"]
 
 _PROVISIONAL = (
-    "Provisional: each motion is run only in the two orientations that had the largest PRD in the "
+    "Provisional: each motion is run only in the orientations that had the largest PRDs in the "
     "last full run, so that a displacement may be too small. All orientations are run when you "
     "release the slider."
 )

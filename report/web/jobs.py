@@ -90,7 +90,9 @@ def state(workbook: Path, job: Json) -> Json:
             "lacks": _lacks(workbook),
             "drawing": _drawing(workbook),
         }
-    near = [pair for pair in opened.assessed().pairs if pair.kind is not NearbyKind.BARE_EDGE]
+    near = [
+        pair for pair in opened.assessed(Extent.OPEN).pairs if pair.kind is not NearbyKind.BARE_EDGE
+    ]
     return {
         "project": {
             "name": opened.sheet.project.project.name,
@@ -127,7 +129,7 @@ def answer_at(workbook: Path, job: Json) -> Json:
     if job["moving"]:
         reply = given.moving(job.get("reference", {}))
     else:
-        reply = given.assessed(Extent.WHOLE if job.get("whole", True) else Extent.AS_GIVEN)
+        reply = given.assessed(Extent.OPEN if job.get("whole", True) else Extent.AS_GIVEN)
     found = answer(reply, is_provisional=job["moving"], room_px=job["room"])
     return {**drawn(found), "shown": shown(given)}
 
@@ -137,8 +139,8 @@ def prepare(workbook: Path, _: Json) -> Json:
     with suppress(InputError):  # which the state tells
         opened = _open(workbook)
         # One orientation of each motion will do: nobody sees the answer.
-        names = {motion.id: [motion.orientations[0].name] for motion in opened.shaking.motions}
-        known = {array.id: names for array in opened.sheet.project.arrays}
+        prds = {m.id: {m.orientations[0].name: 1.0} for m in opened.shaking.motions}
+        known = {array.id: prds for array in opened.sheet.project.arrays}
         job = {"values": {}, "moving": True, "room": USUAL_PX, "reference": known}
         answer_at(workbook, job)
     return {}
@@ -224,7 +226,7 @@ def write(workbook: Path, job: Json) -> Json:
 def add_clearances(workbook: Path, job: Json) -> Json:
     """Write the workbook with the clearances that it lacks to another path."""
     opened = _open(workbook)
-    added, _ = missing_rows(opened.sheet, opened.assessed().arrays)
+    added, _ = missing_rows(opened.sheet, opened.assessed(Extent.AS_GIVEN).arrays)
     change = WorkbookChange(open_book(workbook))
     change.fill(added)
     withdrawn(change)
@@ -237,11 +239,14 @@ def verdict(workbook: Path, job: Json) -> Json:
 
     While a search moves it is provisional: NG where the largest runs alone are.
     """
-    given = _open(workbook).at(job["values"])
+    given, reference = _open(workbook).at(job["values"]), job.get("reference", {})
     if job.get("moving"):
-        found = given.moving(job.get("reference", {})).verdict
+        found = given.moving(reference).verdict
         return stamp(found, found.value)
-    found = given.assessed(Extent.AS_GIVEN).verdict
+    # The runs that may govern refute values without the others, half of all.
+    found = given.of_governing(reference).verdict
+    if found is not Verdict.NG:
+        found = given.assessed(Extent.AS_GIVEN).verdict
     # Less friction turns an OK into one with conditions, and nothing else.
     if found is Verdict.OK:
         found = given.assessed(Extent.LESS_FRICTION).verdict

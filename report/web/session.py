@@ -125,6 +125,7 @@ class Session:
     def new_folder(self) -> Path:
         """Return an empty folder for an upload."""
         self._openings += 1
+        self.folder.mkdir(0o700, exist_ok=True)  # a cleaner of /tmp may have removed it
         folder = self.folder / f"upload-{self._openings}"
         folder.mkdir()
         return folder
@@ -194,7 +195,7 @@ class Session:
             self._note(job["do"], asked)
         is_quick = await self._turn(job["do"], asked)
         try:
-            if asked and asked.moving:
+            if asked:
                 job["reference"] = self._references.get(job["workbook"], {})
             reply = await self._answer(job, is_quick, LONGEST_S)
         finally:

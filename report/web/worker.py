@@ -39,6 +39,7 @@ PROJECT = "project.zip"
 
 def begun(folder: Path, told: Callable[[str], object] = lambda _: None) -> WorkerProcess:
     """Start a process whose leftover files are in a folder."""
+    folder.mkdir(0o700, exist_ok=True)  # a cleaner of /tmp may have removed it
     return WorkerProcess(_prepare, told=told, within=folder)
 
 

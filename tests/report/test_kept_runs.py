@@ -7,7 +7,7 @@ import pytest
 
 from fixtures import assessments, projects
 from report import runs as module
-from report.runs import Runs, largest_two, run_motion
+from report.runs import Runs, run_motion
 from solver.errors import DefectError
 
 MOTIONS = assessments.motions(2, 6.0)
@@ -71,7 +71,8 @@ def test_a_copy_has_the_runs_that_there_are_and_keeps_its_own(begun):
 def test_known_orientations_are_run_alone_and_without_any_all_of_them():
     full = Runs().of(array(), MOTIONS)
     first, second = MOTIONS
-    quick = Runs({"A1": {first.id: largest_two(full[0])}}, 1e-4).of(array(), MOTIONS)
+    two = [run.orientation.name for run in sorted(full[0].runs, key=lambda run: -run.prd_m)[:2]]
+    quick = Runs(1e-4).knowing({"A1": {first.id: two}}).of(array(), MOTIONS)
     assert [len(run.runs) for run in quick] == [2, len(second.orientations)]
     for some, every in zip(quick, full, strict=True):
         assert math.isclose(some.governing.prd_m, every.governing.prd_m, rel_tol=2e-4)

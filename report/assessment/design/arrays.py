@@ -17,6 +17,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cached_property
 from itertools import chain
 from operator import attrgetter
 
@@ -77,7 +78,7 @@ class ArrayMarks:
     design: str = ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class ArrayAssessment:
     """One array: its runs, the value from analysis, the prescriptive value, the design value."""
 
@@ -92,10 +93,6 @@ class ArrayAssessment:
     # the prescriptive route: the prescriptive value, not less than the largest PRD of any runs. NaN
     # where a run has no final displacement, or neither route gives a value.
     design_m: float
-    # of the run nearest to tipping, and of that with the smallest normal force; without runs, by
-    # the most that friction transmits, and no uplift
-    tipping: Tipping
-    uplift: Uplift
     interconnection_n: float  # required strength between the parts of the array [N]
     overridden: ArrayMarks = ArrayMarks()
 
@@ -117,6 +114,21 @@ class ArrayAssessment:
     def runs(self) -> tuple[OrientedRun, ...]:
         """Every run under every motion."""
         return tuple(chain.from_iterable(motion.runs for motion in self.motions))
+
+    @cached_property  # with `uplift` 8 % of a move of the page, which asks for neither
+    def tipping(self) -> Tipping:
+        """Tipping of the run nearest to it; without runs, by the most that friction transmits."""
+        # Both ratios of the check rise with the friction that a run demands.
+        demand = max((run.solution.friction_demand for run in self.runs), default=math.inf)
+        array = self.array
+        supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
+        return tipping_at(demand, array.friction, supports)
+
+    @cached_property
+    def uplift(self) -> Uplift:
+        """Uplift of the run with the smallest normal force; none without runs."""
+        of_motions = (motion.uplift for motion in self.motions)
+        return min(of_motions, key=attrgetter("n_min_g"), default=NO_UPLIFT)
 
     @property
     def governs(self) -> DesignBasis:
@@ -224,11 +236,6 @@ def assess_array(
     floor_m = provisions.analysis_floor_m(rules, prescriptive, is_reviewed=data.is_peer_reviewed)
     has_value = motions_qualify and analysis.basis is not Basis.TOO_FEW
     limits = limits_of(data, rules, array, n_motions=len(runs), has_value=has_value)
-    supports = Supports(height_m=array.cg_height_m, spacing_m=array.support_spacing_m)
-    # Both ratios of the check rise with the friction that a run demands. Without runs, friction
-    # alone limits what is transmitted.
-    all_runs = chain.from_iterable(motion.runs for motion in runs)
-    demand = max((run.solution.friction_demand for run in all_runs), default=math.inf)
     return ArrayAssessment(
         array=array,
         motions=runs,
@@ -239,10 +246,6 @@ def assess_array(
         is_permitted=(motions_qualify or limits.route is Route.PRESCRIPTIVE)
         and all(check.ok for check in limits.of_route),
         design_m=_design_m(limits.route, runs, analysis, prescriptive, floor_m),
-        tipping=tipping_at(demand, array.friction, supports),
-        uplift=min(
-            (motion.uplift for motion in runs), key=attrgetter("n_min_g"), default=NO_UPLIFT
-        ),
         interconnection_n=interconnection_n(data, rules, array),
     )
 

@@ -5,8 +5,9 @@
 import { isSame, typedOf } from "./changes.js";
 
 const REST_MS = 80; // without a step of a key, after which a slider rests
-const HOLD_MS = 400; // without a move of the pointer that holds it, likewise: a pause in a drag asks nothing
+const HOLD_MS = 700; // without a move of the pointer that holds it, likewise: a drag that turns back asks nothing
 const GAP_MS = 400; // at least, from one provisional answer that is asked to the next: nobody reads numbers faster
+const PER_ANSWER = 2; // likewise, of the time that the last one took: a server under load is asked half of the time
 const SLOW_MS = 400; // after which values at rest are answered provisionally, if the full answer is not there
 
 /** The whole sheet of the plan. */
@@ -150,7 +151,7 @@ export function onChange(names, draw) {
   };
 }
 
-/** Return a function that runs a task once at a time, and in so many ms; calls meanwhile become one more run. */
+/** Return a function that runs a task once at a time, with a gap in ms if given; calls meanwhile become one more run. */
 export function createLane(task, gap = 0) {
   let isOpen = false;
   let isWaiting = false;
@@ -160,11 +161,14 @@ export function createLane(task, gap = 0) {
       return;
     }
     isOpen = true;
-    const rest = gap && new Promise((done) => {
-      setTimeout(done, gap);
-    });
+    const begun = performance.now();
     await task();
-    await rest;
+    const took = performance.now() - begun;
+    if (gap) {
+      await new Promise((done) => {
+        setTimeout(done, Math.max(gap, PER_ANSWER * took) - took);
+      });
+    }
     isOpen = false;
     if (isWaiting) {
       isWaiting = false;

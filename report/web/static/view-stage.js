@@ -11,6 +11,7 @@ const GAP = 6;
 const WHOLE = 128; // height of the displacement over the whole run
 const CLOSE_S = 4; // of the forces, around the time
 const NARROW = 540; // below it the plans are above the histories
+const FOOT = 60; // below a plan that is narrow: the array moves over no words there
 const PLAN = 0.4; // of the width
 const BETWEEN = 12; // plans and histories
 const MOST_DEMAND = 1.6; // times the largest friction used: the axis of friction ends there
@@ -43,8 +44,8 @@ export function createStage(data, seek) {
       const isNarrow = wide < NARROW;
       element.classList.toggle("is-narrow", isNarrow);
       const plan = isNarrow ? (wide - GAP) / 2 : Math.round(PLAN * wide);
-      tracks[0].resize(plan, isNarrow ? plan : GROUND);
-      tracks[1].resize(plan, isNarrow ? plan : HEIGHT - GROUND - GAP);
+      tracks[0].resize(plan, isNarrow ? plan + FOOT : GROUND);
+      tracks[1].resize(plan, isNarrow ? plan + FOOT : HEIGHT - GROUND - GAP);
       const right = isNarrow ? wide : wide - plan - BETWEEN;
       whole.resize(right, WHOLE);
       close.resize(right, HEIGHT - WHOLE);
@@ -133,17 +134,18 @@ function scaleOf({ reach, relative }, outline, width, height) {
 
 function place(shapes, { peak }, data, scale) {
   const { width, height, box, perMeter, pixel, path } = scale;
-  const [cx, cy] = [width / 2, height / 2];
-  set(shapes.drawing, { width, height, viewBox: `${-cx} ${-cy} ${width} ${height}` });
+  const [cx, top] = [width / 2, Math.min(width, height) / 2];
+  const bottom = height - top;
+  set(shapes.drawing, { width, height, viewBox: `${-cx} ${-top} ${width} ${height}` });
   const shape = points(data.plan.outline.map(([x, y]) => [(x - box.x - box.wide / 2) * perMeter, (box.y + box.tall / 2 - y) * perMeter]));
   for (const polygon of [shapes.start, shapes.block]) set(polygon, { points: shape });
   const line = points(path);
   for (const one of [shapes.whole, shapes.done]) set(one, { points: line });
   set(shapes.grid, { d: gridOf(width, height) });
-  if (shapes.ground) set(shapes.ground, { d: `M${-cx} 0h10M${cx} 0h-10M0 ${cy}v-10` });
+  if (shapes.ground) set(shapes.ground, { d: `M${-cx} 0h10M${cx} 0h-10M0 ${bottom}v-10` });
   if (peak) set(shapes.peak, { cx: (peak[0] * pixel).toFixed(1), cy: (-peak[1] * pixel).toFixed(1) });
   set(shapes.peak, { visibility: peak ? "visible" : "hidden" });
-  drawFoot(shapes.foot, { cx, cy, scale, data });
+  drawFoot(shapes.foot, { cx, top, bottom, scale, data });
 }
 
 // The part of the path of one slip.
@@ -199,14 +201,14 @@ function translation([x, y]) {
   return `translate(${x.toFixed(2)} ${(-y).toFixed(2)})`;
 }
 
-function drawFoot(foot, { cx, cy, scale: { title, pixel, moves, factor }, data: { plan, relative } }) {
+function drawFoot(foot, { cx, top, bottom, scale: { title, pixel, moves, factor }, data: { plan, relative } }) {
   const shown = moves && `Motion ${factor === 1 ? "to scale" : `× ${factor}`}`;
   const [dx, dy] = inPlan(1, 0, plan.downslope_deg);
   replace(
     foot,
-    scaleBar([-cx + 10, cy - 12], relative.units[0], pixel, BAR),
-    [title, shown].map((words, k) => words && svg("text", { class: "tick on-line", x: -cx + 10, y: -cy + 16 * (k + 1) }, words)),
-    arrow([cx - 26, cy - 26], [dx, -dy], 14),
-    svg("text", { class: "tick on-line end-at", x: cx - 8, y: cy - 48 }, "downslope"),
+    scaleBar([-cx + 10, bottom - 12], relative.units[0], pixel, BAR),
+    [title, shown].map((words, k) => words && svg("text", { class: "tick on-line", x: -cx + 10, y: -top + 16 * (k + 1) }, words)),
+    arrow([cx - 26, bottom - 26], [dx, -dy], 14),
+    svg("text", { class: "tick on-line end-at", x: cx - 8, y: bottom - 48 }, "downslope"),
   );
 }

@@ -102,7 +102,7 @@ def test_values_that_no_page_sends_are_refused(client, values, sentence):
 def test_values_of_a_slider_that_moves_are_provisional_and_carry_no_verdict(client):
     found = asked(client, {"friction": 0.95}, moving=True).json()
     assert found["model_text"].startswith(
-        "Provisional: each motion is run only in the two orientations"
+        "Provisional: each motion is run only in the orientations"
     )
     assert (found["verdict"], found["count"]) == (None, 0)
     drawn = found["html"]

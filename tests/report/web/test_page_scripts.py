@@ -106,19 +106,19 @@ STEPS = {
         [[[True, 1], [False, 2], [True, 2]], True]),
     "a slow provisional answer is shown until the full one is there": ("""
         session.move({ x: 1 });
-        await pause(500);
+        await pause(800);
         for (const k of [0, 1]) { asked[k].done(); await tick(); }
         return [asked.map(({ moving }) => moving), answers()];""",
         [[True, False], [["settling", 1], ["rest", 1]]]),
     "after the full answer a slow provisional one is dropped": ("""
         session.move({ x: 1 });
-        await pause(500);
+        await pause(800);
         for (const k of [1, 0]) { asked[k].done(); await tick(); }
         return [asked.map(({ moving }) => moving), answers()];""",
         [[True, False], [["rest", 1]]]),
     "a full answer is asked again where the slider went on": ("""
         session.move({ x: 1 });
-        await pause(500);
+        await pause(800);
         session.move({ x: 2 });
         session.release();
         asked[1].done(); await tick();
@@ -134,7 +134,7 @@ STEPS = {
         [[False, True], [["rest", 1], ["rest", 1]]]),
     "what an answer lacks is asked once the pointer lets the slider go": ("""
         session.move({ x: 1 });
-        await pause(500);
+        await pause(800);
         asked[1].done({ pending: "less" }); await tick();
         const held = asked.length;
         session.release();

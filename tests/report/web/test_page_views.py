@@ -322,6 +322,20 @@ CLIPPED = """() => {
   return [...cut, ...beyond].map((one) => one.outerHTML);
 }"""
 
+ON_THE_WORD = """() => [...document.querySelectorAll('.track')].filter((track) => {
+  const [word, block] = ['.end-at', '.track-block'].map((one) => track.querySelector(one))
+    .map((one) => one.getBoundingClientRect());
+  const isAside = word.left >= block.right || block.left >= word.right;
+  return !isAside && word.top < block.bottom && block.top < word.bottom;
+}).length"""
+
+
+def test_on_a_phone_no_array_lies_on_the_word_of_its_arrow(page, run):
+    mounted(page, "slide", run, wide=296)
+    for key in ("Home", "n", "n", "n", "n"):
+        assert page.evaluate(ON_THE_WORD) == 0
+        press(page, ".watch", key)
+
 
 @pytest.mark.parametrize("wide", [296, 411, 590, 760])
 @pytest.mark.nightly

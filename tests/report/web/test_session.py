@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import stat
 import time
 from multiprocessing import active_children
 
@@ -247,6 +248,13 @@ def test_projects_stay_open_beside_each_other_until_there_are_too_many(tmp_path,
     with pytest.raises(ClosedError):
         session.workbook(folders[0].name)
     assert session.workbook("example") == EXAMPLE
+
+
+@pytest.mark.quick
+def test_an_upload_has_a_folder_where_that_of_the_server_was_removed(tmp_path):
+    session = Session(tmp_path / "served")
+    assert session.new_folder().is_dir()
+    assert os.name == "nt" or stat.S_IMODE(session.folder.stat().st_mode) == 0o700
 
 
 def test_the_address_of_the_example_is_known_before_anyone_opens_it(tmp_path, monkeypatch):
