@@ -12,7 +12,7 @@ from report.study.exports import LIBRARY
 from report.study.manifest import NAME
 from report.study.outputs import TABLE, make_study
 from report.study.run_study import estimate, planned
-from report.study.wording import headline
+from report.study.sentences import headline
 
 
 def run(

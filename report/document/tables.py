@@ -156,7 +156,7 @@ def headed(
     *columns: Sequence[Any], rows: Iterable[Sequence[Any]] = (), whole_rows: int = WHOLE_ROWS,
     kind: str = "",
 ) -> Table:  # fmt: skip
-    """Return a table of a template, with rows of values or none, which `framed` then has.
+    """Return a table of rows of values.
 
     A column is its heading and share; its alignment if that is not left, and its unit if any.
     """

@@ -6,7 +6,6 @@ values. Owns no content.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from contextlib import suppress
 from functools import cache
@@ -16,13 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
-from report.assessment.checks.check import dagger
-from report.document.tables import headed
-from report.text.counts import counted, numbered, spelled, thousands
-from report.text.error_text import below_mm, general, percent, scientific, seconds
-from report.text.letter_case import capitalized, lowered
-from report.text.names import joined, named, ranged, shortened
-from report.text.units import digits_down, digits_up, number, ratio, ratio_up
+from report.text.counts import numbered, thousands
+from report.text.error_text import general, scientific
+from report.text.names import joined, named, shortened
+from report.text.units import number, ratio
 from report.typeset.equations import data_uri, formula, symbol
 
 if TYPE_CHECKING:
@@ -33,21 +29,14 @@ _HERE = Path(__file__).resolve().parents[2]
 
 
 _FILTERS = (
-    below_mm, capitalized, counted, dagger, data_uri, digits_down, digits_up, formula, general,
-    joined, lowered, named, number, numbered, percent, ranged, ratio, ratio_up,
-    scientific, seconds, shortened, spelled, symbol, thousands,
+    data_uri, formula, general, joined, named, number, numbered, ratio, scientific, shortened,
+    symbol, thousands,
 )  # fmt: skip
 
 
 def rendered(folder: Path, name: str, context: Mapping[str, Any]) -> str:
     """Return a document from a template of a folder."""
     return _environment(folder).get_template(name).render(context)
-
-
-def said(folder: Path, path: str, name: str, context: Mapping[str, Any]) -> str:
-    """Return the output of a template macro as text without tags, for tables and the screen."""
-    module = _environment(folder).get_template(path).make_module(dict(context))
-    return Markup(getattr(module, name)()).unescape().strip()
 
 
 @cache
@@ -67,8 +56,6 @@ def _environment(folder: Path) -> Environment:
     )
     environment.filters |= {function.__name__: function for function in _FILTERS}
     environment.filters["needs_a_line"] = _needs_a_line
-    environment.tests |= {"infinite": math.isinf, "nan": math.isnan}
-    environment.globals["headed"] = headed
     return environment
 
 

@@ -16,6 +16,7 @@ from report.manual.measured_buildings import middle, span
 from report.manual.paper_sections import PAPER_MEAN_PERCENT, PAPER_WORST_PERCENT
 from report.manual.precision import floor
 from report.pages.parts import verdict
+from report.text.counts import numbered
 from report.text.error_text import percent, scientific, seconds, ten_digits
 from report.text.grouping import grouped_by
 from report.text.names import ranged
@@ -32,11 +33,26 @@ def judged(is_passed: bool) -> Markup:
     return verdict(is_passed, ("PASS", "FAIL"))
 
 
+def passed(verification: Verification) -> str:
+    """Return how many checks of all passed."""
+    return f"{sum(row.passed for row in verification.checks)} of {len(verification.checks)}"
+
+
+def outcome(verification: Verification) -> Markup:
+    """Return whether all checks passed, how many did, and how many were left out."""
+    # Without checks none failed, which is no pass.
+    verdict = judged(verification.passed and len(verification.checks) > 0)
+    left_out = numbered(len(verification.left_out), "check")
+    without = f" {left_out} left out: SciPy is not installed." if verification.left_out else ""
+    return Markup("{} {} checks passed.{}").format(verdict, passed(verification), without)
+
+
 def summary(verification: Verification) -> Section:
     """Return verdict, key results and checks by section."""
     return section(
         "manual/summary",
         "Summary",
+        outcome=outcome(verification),
         results=headed(
             ("Quantity", 2.6), ("Result", 2.9), ("Section", 0.7), rows=_results(verification)
         ),
@@ -150,10 +166,10 @@ def checks(verification: Verification) -> Section:
     return section(
         "manual/checks",
         "Checks",
-        by_section={
-            name: grouped(grouped_by(rows, source), _CHECK_COLUMNS)
+        by_section=[
+            (name, grouped(grouped_by(rows, source), _CHECK_COLUMNS))
             for name, rows in _by_section(verification).items()
-        },
+        ],
     )
 
 

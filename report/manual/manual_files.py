@@ -6,7 +6,6 @@ import datetime as dt
 import os
 import platform
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
 
 import pandas as pd
 from markupsafe import Markup
@@ -15,7 +14,7 @@ from report.document.columns import words
 from report.document.sections import Section, filled, section
 from report.document.tables import grouped, headed
 from report.document.templates import rendered
-from report.manual.check_sections import checks, features, judged, summary
+from report.manual.check_sections import checks, features, outcome, passed, summary
 from report.manual.measured_buildings import building, models
 from report.manual.paper_sections import convergence, curves, links
 from report.manual.precision import methods, work
@@ -24,8 +23,10 @@ from report.pages.symbols import with_symbols
 from report.provenance.known_errors import known_errors
 from report.provenance.package_sources import installed, processor
 from report.provenance.release import version
+from report.text.counts import numbered
 from report.text.csv_text import csv_text
 from report.text.grouping import grouped_by
+from report.text.names import joined
 from report.text.units import NO_BREAK
 from report.text.validation import NOT_VALIDATED
 from report.typeset.pdf import TEMPLATES, lay_out
@@ -80,23 +81,35 @@ def manual_html(
 ) -> str:
     """Return the manual as HTML, before layout."""
     styles = (TEMPLATES / name for name in ("package.css", "verification.css"))
-    context: dict[str, Any] = {
-        "v": verification,
-        "with_symbols": with_symbols,
-        # Without checks none failed, which is no pass.
-        "verdict": judged(verification.passed and len(verification.checks) > 0),
-        "n_passed": sum(row.passed for row in verification.checks),
-        "not_validated": NOT_VALIDATED,
-        "machine": machine,
-        "versions": headed(("Item", 1), ("Version or description", 3), rows=machine.items()),
-        "version": machine["Roofslip"],
-    }
+    versions = headed(("Item", 1), ("Version or description", 3), rows=machine.items())
+    context = {"with_symbols": with_symbols, "versions": versions}
+    pages = list(filled(TEMPLATES, parts, context))
+    n_passed, extent = passed(verification), "quick" if verification.quick else "full"
+    n_motions = sum(len(evidence.study.motions) for evidence in verification.models)
+    records = numbered(len(verification.records), "record")
+    buildings = numbered(len(verification.roofs) - 1, "recorded building")
+    ran = f"{records} of one component, {numbered(n_motions, 'motion')} of three and {buildings}"
+    libraries = ", ".join(f"{name} {machine[name]}" for name in ("Python", "numpy", "numba"))
     cover = {
         "css": Markup("\n".join(path.read_text(encoding="utf-8") for path in styles)),
+        "title": f"Roofslip {machine['Roofslip']}: verification manual",
+        "version": machine["Roofslip"],
         "date": date.isoformat(),
-        "sections": list(filled(TEMPLATES, parts, context)),
+        "extent": extent,
+        "passed": n_passed,
+        "outcome": outcome(verification),
+        "about": (
+            ("Program", f"Roofslip, version {machine['Roofslip']}"),
+            ("Date of the run", date.isoformat()),
+            ("Extent", f"{extent}: {ran}"),
+            ("Validation", NOT_VALIDATED),
+            ("Libraries", libraries),
+            ("Machine", f"{machine['Processor']}, {machine['Cores']} cores, {machine['System']}"),
+        ),
+        "contents": [part for part, _ in pages],
+        "sections": pages,
     }
-    return rendered(TEMPLATES, "verification.html", context | cover)
+    return rendered(TEMPLATES, "verification.html", cover)
 
 
 def sections(verification: Verification) -> tuple[Section, ...]:
@@ -120,7 +133,12 @@ def sections(verification: Verification) -> tuple[Section, ...]:
         *((models(verification),) if verification.models else ()),
         features(verification),
         errors_by_version(),
-        section("manual/software", "Software and machine", has_records=has_records),
+        section(
+            "manual/software",
+            "Software and machine",
+            quick=verification.quick,
+            has_records=has_records,
+        ),
     )
 
 
@@ -129,10 +147,15 @@ def scope(verification: Verification) -> Section:
     studies = []
     for study in (evidence.study for evidence in verification.models):
         n_made = len(study.motions) - study.n_recorded
-        studies.append((study.motions, study.motions[:n_made], study.motions[n_made:]))
+        count, recorded = numbered(len(study.motions), "motion"), study.motions[n_made:]
+        studies.append(
+            (count, joined(study.motions[:n_made]), joined(recorded) if recorded else "")
+        )
     return section(
         "manual/scope",
         "Scope and terms",
+        n_records=numbered(len(verification.records), "record"),
+        records=verification.records,
         studies=studies,
         buildings=[roof.title for roof in verification.roofs[1:]],
     )

@@ -94,7 +94,10 @@ def models(verification: Verification) -> Section:
         "manual/models",
         "Models: one axis, two axes and rows of blocks",
         study=study,
-        model_study=model_study,
+        slow_share=model_study.SLOW_SHARE,
+        rate_s_per_m=model_study.RATE_S_PER_M,
+        tolerance=model_study.PUSHED_TOLERANCE,
+        falling_rate_s_per_m=model_study.FALLING.rate_s_per_m,
         motions=" and ".join(filter(None, motions)),
         slopes_deg=joined([*map(general, study.slopes_deg)]),
         mus=joined([*map(general, study.mus)]),
@@ -129,19 +132,36 @@ def building(verification: Verification) -> Section:
         fineness=FINENESS,
         resting_percent=100.0 * RESTING_SHARE,
         real="; ".join(roof.title for roof in verification.roofs if roof.is_recorded),
-        shown=f", and {stability_maps.SHOWN_S:g}{NO_BREAK}s of the roof acceleration.",
-        roofs=[
-            (
-                *(roof, name, _reference(roof).lower(), _ratios(roof), f"{roof.scale:.3g}"),
-                *(_properties(roof), _bands(roof), _peaks(roof)),
-            )
-            for roof, name in zip(verification.roofs, names, strict=True)
-        ],
+        roofs=[_roof(roof, name) for roof, name in zip(verification.roofs, names, strict=True)],
         charts={
             name: stability_maps.comparison(roof)
             for roof, name in zip(verification.roofs, names, strict=True)
         },
     )
+
+
+def _roof(roof: RoofComparison, chart: str) -> Mapping[str, object]:
+    """Return what is shown of a building."""
+    reference, ratios = _reference(roof).lower(), _ratios(roof)
+    shown = f", and {stability_maps.SHOWN_S:g}{NO_BREAK}s of the roof acceleration"
+    spectra = "response spectra of ground, roof and computed roof motions"
+    return {
+        "title": roof.title,
+        "description": roof.description,
+        "ratios": ratios,
+        "properties": _properties(roof),
+        "chart": chart,
+        "caption": f"{roof.title}: {spectra}{shown if ratios else ''}.",
+        "alt": f"Response of the roof, {reference} and computed",
+        "bands": _bands(roof),
+        "reference": reference,
+        "peaks": _peaks(roof),
+        "peaks_caption": (
+            f"PRD on a slope of {roof.slope_deg:g}°; in parentheses, ratio to the reference (first "
+            "row)"
+        ),
+        "scale": f"{roof.scale:.3g}",
+    }
 
 
 def _ratios(roof: RoofComparison) -> str:

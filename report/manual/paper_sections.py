@@ -26,6 +26,9 @@ _PPA = f"PPA = {paper_figures.FIG_12_PPA_G:g}{NO_BREAK}g"
 PAPER_WORST_PERCENT, PAPER_MEAN_PERCENT = 6.78, 1.69
 
 
+_IN_PERCENT = "largest error in the residual, in percent of the residual and of the PRD"
+
+
 def convergence(verification: Verification) -> Section:
     """Return the paper's Fig. 5."""
     orders = list(verification.convergence.items())
@@ -34,7 +37,7 @@ def convergence(verification: Verification) -> Section:
         "The paper's convergence study (Fig. 5)",
         scenarios=len(paper_studies.CONVERGENCE_CASES),
         paper_percent=paper_figures.PAPER_P64_PERCENT,
-        by_record={record: _errors(study) for record, study in orders},
+        by_record=[(f"{record}: {_IN_PERCENT}", _errors(study)) for record, study in orders],
         charts={
             # Three rows to a chart, which stays on one page.
             f"convergence-{start // 3 + 1}": paper_figures.convergence(orders[start : start + 3])
@@ -86,7 +89,7 @@ def links(verification: Verification) -> Section:
                 f"{rows[0].record}, PPA = {rows[0].ppa_g:g}{NO_BREAK}g. Left: displacement history "
                 "for the friction coefficient with the largest difference in percent; "
                 "right: PRD and RRD.",
-                rows[0].record,
+                f"Exact method and link compared on {rows[0].record}",
             )
             for name, rows in by_chart.items()
         ],
@@ -114,10 +117,15 @@ def curves(verification: Verification) -> Section:
         (text("Time", share=0.8), lambda study: seconds(study.seconds)),
     )
     names = [slug(study.record) for study in verification.curves]
-    charts: dict[str, str] = {}
+    charts, figures = dict[str, str](), []
     for study, name in zip(verification.curves, names, strict=True):
+        record, against = study.record, "PRD against PPA (Fig. 10) and against slope (Fig. 11)"
         charts[f"curves-{name}"] = paper_figures.curves(study)
         charts[f"contours-{name}"] = paper_figures.contours(study)
+        caption = f"{record}: {against}; the larger of both signs of the slope."
+        figures.append((f"curves-{name}", caption, f"PRD against PPA and slope for {record}"))
+        contours = f"Contours of PRD against friction and slope for {record}"
+        figures.append((f"contours-{name}", record + _answer(study), contours))
     return section(
         "manual/curves",
         "Design curves (Figs. 10 to 12)",
@@ -127,10 +135,7 @@ def curves(verification: Verification) -> Section:
             # Read off the paper's text, at PPA 1.5 g, for its own record: another record differs.
             ("The paper, record of the paper", f"1000{NO_BREAK}mm", "0.55", "6,960", "—"),
         ),
-        studies=[
-            (study.record, f"curves-{name}", f"contours-{name}", _answer(study))
-            for study, name in zip(verification.curves, names, strict=True)
-        ],
+        figures=figures,
         charts=charts,
     )
 

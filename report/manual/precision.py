@@ -63,6 +63,12 @@ def methods(verification: Verification) -> Section:
     )
 
 
+_WORK = (
+    "Two axes and one axis. Points: medians over the analysis cases; thin lines: to the largest "
+    "error. Lower points are more accurate; points further left are faster."
+)
+
+
 def work(verification: Verification) -> Section:
     """Return accuracy against run time."""
     runs, floor_share = verification.work, floor(verification)
@@ -74,7 +80,7 @@ def work(verification: Verification) -> Section:
         "manual/work",
         "Accuracy against run time",
         cases=len(runs[RUN].drop_duplicates()),
-        missing=_missing(runs),
+        caption=f"{_WORK} {_missing(runs)}",
         floor_percent=100.0 * floor_share,
         plane_records=list(plane["record"].unique()),
         plane_cases=list(plane["case"].unique()),

@@ -22,13 +22,16 @@ def stability(verification: Verification) -> Section:
     return section(
         "manual/stability",
         "Stability",
-        by_chart={
-            name: [
-                f"({count}) {sweep.note} Failed: {sweep.failed.sum()} of {sweep.failed.size} cells."
-                for count, sweep in maps
-            ]
+        by_chart=[
+            (
+                name,
+                [
+                    f"({count}) {sweep.note} Failed: {sweep.failed.sum()} of {sweep.failed.size} cells."
+                    for count, sweep in maps
+                ],
+            )
             for name, maps in by_chart.items()
-        },
+        ],
         charts={
             name: stability_maps.stability([sweep for _, sweep in maps], first=maps[0][0])
             for name, maps in by_chart.items()

@@ -27,7 +27,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     return {
         "kind": "calculation package",
         "name": project.name,
-        "facts": list(_facts(package, only)),
+        "about": list(_facts(package, only)),
         "license": project.license,
         "revisions": headed(*columns, rows=rows) if len(rows) > 1 else None,
     }

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
 from report.document.columns import text
 from report.document.sections import Section, section
 from report.document.tables import Table, listed
+from report.pages.marks import UNVERIFIED
+from report.pages.symbols import with_symbols
+from report.project.model.choices import RecordedAt
 from report.study import study_charts
 from report.study.page_parts import (
     LOW_G,
@@ -24,9 +28,10 @@ from report.study.page_parts import (
     length,
     some,
 )
+from report.study.sentences import design_basis
 from report.study.study_results import STATISTICS, StudyResults
 from report.study.study_tables import length_unit
-from report.study.wording import level, on_building
+from report.study.wording import both, level, on_building
 from report.text.letter_case import capitalized
 from report.text.units import NO_BREAK
 from solver.model import Floats
@@ -34,33 +39,77 @@ from solver.model import Floats
 
 def curves(results: StudyResults, building: int) -> Section:
     """Return the section on a building."""
-    study_input = results.plan.input
-    drawn_mus = some(study_input.mus, MOST_FRICTIONS)
-    # A single slope is no axis.
-    sloped = drawn_mus if len(study_input.slopes_deg) > 1 else []
-    sheets, slopes = list(_sheets(results, building)), some(study_input.slopes_deg, MOST_LINES)
+    study_input, sheets = results.plan.input, list(_sheets(results, building))
     values, mean = _drawn(results, building)
+    slopes = some(study_input.slopes_deg, MOST_LINES)
+    name, letters = capitalized(results.leading), study_input.study.intensity.letters
     is_low = study_input.study.intensity.unit == "g" and study_input.intensities[0] < LOW_G
+    left = f" Left, up to {LOW_G}{NO_BREAK}g: on a logarithmic axis." if is_low else ""
+    charts = {f"sheet-{sheet}": svg for sheet, svg, _ in sheets}
+    captions = []
+    for m in some(study_input.mus, MOST_FRICTIONS):
+        friction = friction_name(results, study_input.mus[m])
+        members = [mean[s, m] for s in slopes]
+        charts[f"intensity-{m}"] = by_intensity(results, values, m, members=members)
+        by_slope = f"{name} against {letters}, {friction}, by slope.{left}"
+        captions.append((f"intensity-{m}", by_slope))
+        # A single slope is no axis.
+        if len(study_input.slopes_deg) > 1:
+            charts[f"slope-{m}"] = _against_slope(results, building, m)
+            by_letters = f"{friction}, by {letters}. Left: on a logarithmic axis."
+            captions.append((f"slope-{m}", f"{name} against slope, {by_letters}"))
+    middle = study_input.intensities[len(study_input.intensities) // 2]
     return section(
         "study/curves",
         f"Design curves{on_building(results, building, ', building ')}",
         id=f"curves-{building}",
-        named={m: friction_name(results, study_input.mus[m]) for m in drawn_mus},
-        sheets=[(name, is_thick) for name, _, is_thick in sheets],
-        left=f" Left, up to {LOW_G}{NO_BREAK}g: on a logarithmic axis." if is_low else "",
-        place=results.plan.motions.buildings[building],
-        middle=study_input.intensities[len(study_input.intensities) // 2],
+        name=name,
+        thin=_thin(results),
+        captions=captions,
+        sheets=[
+            (f"sheet-{sheet}", f"Sheet: {sheet}", _sheet_caption(results, sheet, is_thick))
+            for sheet, _, is_thick in sheets
+        ],
+        about=_about(results, building),
         displacements=_displacements(results, building),
-        charts={
-            **{
-                f"intensity-{m}": by_intensity(
-                    results, values, m, members=[mean[s, m] for s in slopes]
-                )
-                for m in drawn_mus
-            },
-            **{f"slope-{m}": _against_slope(results, building, m) for m in sloped},
-            **{f"sheet-{name}": svg for name, svg, _ in sheets},
-        },
+        displacements_caption=with_symbols(f"Displacements at {level(results, middle)}"),
+        charts=charts,
+    )
+
+
+def _thin(results: StudyResults) -> str:
+    return "Thin and gray: mean PRD." if results.plan.design_rule.has_value else ""
+
+
+def _sheet_caption(results: StudyResults, sheet: str, is_thick: bool) -> str:
+    """Return of what a sheet has the contours, and which line is the allowed displacement."""
+    rule, allowed_m = results.plan.design_rule, results.plan.input.study.allowed_m or math.nan
+    if rule.has_value:
+        contours = f"Contours of the {rule.name}, {sheet}, per {design_basis(rule)}. {UNVERIFIED}."
+    else:
+        contours = f"Contours of the mean PRD, {sheet}: too few motions for a {rule.name}."
+    thick = f"Thick: {both(results, allowed_m)}." if is_thick else ""
+    return " ".join(filter(None, (contours, _thin(results), thick)))
+
+
+def _about(results: StudyResults, building: int) -> Sequence[tuple[str, str]]:
+    """Return from what the sheets are computed."""
+    study_input, motions = results.plan.input, results.plan.motions
+    study, ids = study_input.study, ", ".join(motion.id for motion in motions.motions[0])
+    by = f", by {study.prepared_by}" if study.prepared_by else ""
+    through = f"taken from the ground through building {motions.buildings[building]}"
+    given = "given at the roof" if study.recorded_at is RecordedAt.ROOF else through
+    count, measure = results.plan.design_rule.n_motions, with_symbols(axis(results))
+    mats = []
+    for mat in study_input.mats:
+        center, tested = study_input.friction(mat.id).center, f" (tested {mat.tested})"
+        mats.append(f"{mat.id}: μ{NO_BREAK}={NO_BREAK}{center:g}{tested if mat.tested else ''}")
+    mus = ", ".join(map(str, study_input.mus))
+    return (
+        ("Study, date", f"{study.title}, {study.date.isoformat()}{by}"),
+        ("Motions", Markup("{}: {}; intensity {}").format(count, ids, measure)),
+        ("z/h", f"not entered: the motions are {given}"),
+        ("Friction", "; ".join(mats) or f"μ = {mus}, without tests"),
     )
 
 

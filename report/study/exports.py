@@ -6,20 +6,25 @@ Computes nothing. Read `export_files`.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from functools import partial
+from collections.abc import Iterator, Mapping
 
-from report.document.templates import said
 from report.project.model.choices import RecordedAt
-from report.study.dispersions import dispersions, exported, is_exportable, is_refused
+from report.study.dispersions import (
+    NOT_DETERMINED,
+    dispersions,
+    exported,
+    is_exportable,
+    is_refused,
+)
+from report.study.sentences import MASS, warnings
 from report.study.study_input import Intensity
 from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
 from report.study.study_tables import Row
-from report.study.wording import MASS, context
+from report.study.wording import both
 from report.text.csv_text import csv_text
 from report.text.letter_case import capitalized
+from report.text.names import joined
 from report.text.units import digits_down, digits_up
-from report.typeset.pdf import TEMPLATES
 
 LIBRARY = "fragility.csv"
 
@@ -93,17 +98,33 @@ def _component(results: StudyResults, result: ArrayStudyResult) -> Row:
 
 def _comments(results: StudyResults, result: ArrayStudyResult) -> str:
     """Return what the array, its measure and its dispersions are, and every warning."""
-    study = results.plan.input.study
+    return " ".join(_remarks(results, result))
+
+
+def _remarks(results: StudyResults, result: ArrayStudyResult) -> Iterator[str]:
+    study, array = results.plan.input.study, result.plan.array
+    roof = f"friction coefficient {result.plan.mu:g}, slope {array.slope_deg:g} deg"
+    yield f"Mat {array.mat}, {roof}, clearance {both(results, array.clearance_m)}."
+    yield (
+        "Limit states are on the peak relative displacement of a motion, not on a design "
+        "displacement."
+    )
     is_roof = study.intensity in (Intensity.PPA, Intensity.PPV) or (
         study.intensity is Intensity.SA1 and study.recorded_at is RecordedAt.ROOF
     )
-    words = {
-        "one": result,
-        "demand": DEMANDS[study.intensity],
-        "is_roof": is_roof,
-        "dispersions": partial(dispersions, results, result),
-        "known_states": known_states(result),
-        "others": [state.words for state in result.states if not state.fragility.fitted.is_known],
-        "MASS": MASS,
-    }
-    return said(TEMPLATES, "study/exports.html", "comments", context(results) | words)
+    where = "roof motion, not of the ground" if is_roof else "ground motion, not of the roof"
+    demand, unit, quantity = DEMANDS[study.intensity]
+    yield f"{demand} in {unit} is the {quantity} of the {where}."
+    for number, state in enumerate(known_states(result), start=1):
+        parts = (
+            f"{part.name} {digits_up(part.beta, 2) if part.beta else 'not included'} "
+            f"({part.source})"
+            for part in dispersions(results, result, state)
+        )
+        yield f"Dispersions of LS{number} ({state.words}): {', '.join(parts)}."
+    others = [state.words for state in result.states if not state.fragility.fitted.is_known]
+    if others:
+        yield f"{capitalized(NOT_DETERMINED)}: {joined(others)}."
+    yield f"{MASS}."
+    yield from warnings(results)
+    yield f"Study {results.manifest['identity'][:16]}."

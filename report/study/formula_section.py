@@ -12,9 +12,10 @@ from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.pages.symbols import with_symbols
 from report.study.page_parts import MOST_CUTS, MOST_FRICTIONS, axis, design_length, length, some
+from report.study.sentences import analysis, provision
 from report.study.study_results import StudyResults
 from report.study.study_tables import length_unit
-from report.study.wording import on_building
+from report.study.wording import both, on_building
 from report.text.letter_case import capitalized
 from report.text.units import (
     digits_down,
@@ -31,21 +32,29 @@ _At = tuple[int, int, int, int]
 def formula(results: StudyResults, building: int) -> Section:
     """Return the section on the formula, or why there is none."""
     fit = results.fits[building]
+    content = _content(results, building, fit) if isinstance(fit, Fit) else {}
     return section(
         "study/formula",
         f"Simplified formula{on_building(results, building, ', building ')}",
         id=f"formula-{building}",
-        **(_content(results, building, fit) if isinstance(fit, Fit) else {"lacking": fit}),
+        lacking="" if isinstance(fit, Fit) else with_symbols(fit),
+        **content,
     )
 
 
 def _content(results: StudyResults, building: int, fit: Fit) -> Mapping[str, Any]:
+    rule, measure = results.plan.design_rule, results.plan.input.study.intensity
     low_deg, high_deg = map(math.degrees, fit.domain["slope_rad"])
+    smallest_m, largest_m = fit.domain["prd_m"]
+    ppa_g = _digits(fit.ppa_g)
     return {
-        "lacking": "",
-        "fit": fit,
         "terms": _terms(fit.coefficients),
-        "ppa_g": _digits(fit.ppa_g),
+        "letters": with_symbols(measure.letters),
+        "unit": measure.unit,
+        "acceleration": "x" if ppa_g == "1" else f"({ppa_g} x)",
+        "analysis": analysis(rule),
+        "floor": provision(rule.rules, "analysis_floor") if rule.has_floor else "",
+        "cases": fit.cases,
         "sigma": number(round_up(fit.sigma_ln, 2), 2),
         # Outward: every ratio is within what is printed; the domain below inward: all of it is
         # covered.
@@ -53,6 +62,8 @@ def _content(results: StudyResults, building: int, fit: Fit) -> Mapping[str, Any
         "greatest": number(round_up(fit.maximum_ratio, 2), 2),
         "slopes": _inward(low_deg, high_deg, "°"),
         "domain": {name: _inward(*ends) for name, ends in fit.domain.items()},
+        "smallest": both(results, smallest_m),
+        "largest": both(results, largest_m),
         "beside": _beside(results, building, fit),
     }
 

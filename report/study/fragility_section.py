@@ -9,9 +9,11 @@ from typing import Any
 from report.document.columns import text, words
 from report.document.sections import Section, section
 from report.document.tables import Column, Table, listed
+from report.pages.symbols import with_symbols
 from report.study import study_charts
 from report.study.dispersions import (
     NAMES,
+    NOT_DETERMINED,
     Dispersion,
     dispersions,
     exported,
@@ -19,45 +21,72 @@ from report.study.dispersions import (
     is_refused,
 )
 from report.study.page_parts import axis
+from report.study.sentences import MASS, about_array, about_intensity
+from report.study.study_input import NoValue, Sampling
 from report.study.study_plan import SLOPE
 from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
 from report.study.study_tables import length_unit
-from report.study.wording import MASS, both, on_building
+from report.study.wording import both, chance, level, on_building
+from report.text.letter_case import capitalized
 from report.text.names import joined, slug
 from report.text.units import digits_down, digits_up, number, round_up
 from solver.studies import capacity, uncertainty
 from solver.studies import fragility as fits
+from solver.studies.uncertainty import Exceedance
 
 
 def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
     """Return the section on an array: its fragilities, and the probabilities where asked for."""
-    name = f"{result.plan.array.id}{on_building(results, result.plan.building, ', building ')}"
-    fragilities = [state.fragility for state in result.states]
-    known = [state for state in result.states if state.fragility.fitted.is_known]
+    array, study = result.plan.array, results.plan.input.study
+    name = f"{array.id}{on_building(results, result.plan.building, ', building ')}"
+    fragilities, bars = [state.fragility for state in result.states], result.bars
+    is_exceedance = study.no_value is NoValue.EXCEEDANCE
+    censored = f"censored; {fragilities[0].censored} are"
+    tested = [state for state in result.states if not math.isnan(state.fragility.p_value)]
     return section(
         "study/array",
         f"Fragility of {name}",
         id=f"array-{slug(name)}",
-        one=result,
-        array=result.plan.array,
-        motions=fragilities[0].capacities.intensity.size,
-        levels=fragilities[0].levels.size,
-        censored=fragilities[0].censored,
-        notes=list(_notes(result)),
-        unknown=[state.name for state in result.states if not state.fragility.fitted.is_known],
-        fragilities=_fragilities(results, result),
-        is_untested=any(math.isnan(of_state.p_value) for of_state in fragilities),
-        exported=_exported(results, result, known),
-        is_centered=not math.isnan(result.center_m),
-        quantiles=[f"{100 * share:g}%" for share in (uncertainty.LOW, uncertainty.HIGH)],
+        about=about_array(results, array, f"μ = {result.plan.mu:g}"),
+        motions=results.plan.design_rule.n_motions,
+        accuracy=capacity.ACCURACY,
         confidence=f"{100 * fits.CONFIDENCE:g}%",
-        REPEATS=fits.REPEATS,
-        LILLIEFORS_REPEATS=fits.LILLIEFORS_REPEATS,
-        goodness=f"{100 * (1 - fits.LEVEL):g}%",
-        ACCURACY=capacity.ACCURACY,
-        MASS=MASS,
-        charts=dict(_charts(results, result)),
+        repeats=fits.REPEATS,
+        levels=fragilities[0].levels.size,
+        without_value="an exceedance" if is_exceedance else censored,
+        notes=list(_notes(result)),
+        goodness=_GOODNESS if tested else "",
+        fragilities=_fragilities(results, result),
+        fragilities_caption=with_symbols(f"Fragilities, median {axis(results)}"),
+        fit_repeats=fits.LILLIEFORS_REPEATS,
+        is_untested=len(tested) < len(fragilities),
+        exported=_exported(results, result),
+        mass=MASS,
+        clearance=both(results, array.clearance_m),
+        samples=study.samples if study.sampling is Sampling.LATIN_HYPERCUBE else 0,
+        exceedance=_exceedance(results, *result.exceedances) if result.exceedances else {},
+        has_bars=bool(bars),
+        largest_effect=bars[0].name if bars and not math.isnan(result.center_m) else "",
+        low=f"{100 * uncertainty.LOW:g}%",
+        high=f"{100 * uncertainty.HIGH:g}%",
+        charts=dict(_charts(results, result, tested)),
     )
+
+
+_GOODNESS = (
+    "Goodness of fit: ranked capacities, the lognormal distribution fitted to them, and the band "
+    f"that contains the ranks of {100 * (1 - fits.LEVEL):g}% of lognormal samples."
+)
+
+
+def _exceedance(results: StudyResults, found: Exceedance) -> Mapping[str, Any]:
+    study = results.plan.input.study
+    return {
+        "at": with_symbols(level(results, study.site_intensity or 0.0) + about_intensity(study)),
+        "chance": chance(found.value, found.low, found.high),
+        "pairs": found.runs,
+        "lost": found.without_value,
+    }
 
 
 def _notes(result: ArrayStudyResult) -> Iterator[str]:
@@ -73,6 +102,10 @@ def _notes(result: ArrayStudyResult) -> Iterator[str]:
                 f"{state.name}: for {falls} of {count} motions the PRD is below the limit again "
                 "at a greater intensity; the first crossing counts."
             )
+    unknown = [state.name for state in result.states if not state.fragility.fitted.is_known]
+    if unknown:
+        required = "two different capacities above 0 and up to the highest intensity"
+        yield f"{joined(unknown)}: {NOT_DETERMINED}. A lognormal fit requires {required}."
 
 
 def _fragilities(results: StudyResults, result: ArrayStudyResult) -> Table:
@@ -103,19 +136,19 @@ def _outward(low: float, high: float) -> str:
     return "none" if math.isnan(low) else f"{digits_down(low, 3)} to {digits_up(high, 3)}"
 
 
-def _charts(results: StudyResults, result: ArrayStudyResult) -> Iterator[tuple[str, str]]:
+def _charts(
+    results: StudyResults, result: ArrayStudyResult, tested: Sequence[LimitState]
+) -> Iterator[tuple[str, str]]:
     yield "fragility", study_charts.fragilities(result.states, axis(results))
-    tested = [state for state in result.states if not math.isnan(state.fragility.p_value)]
     if tested:
         yield "goodness", study_charts.goodness(tested, axis(results))
     if result.bars and not math.isnan(result.center_m):
         yield "tornado", study_charts.tornado(result.bars, result.center_m, length_unit(results))
 
 
-def _exported(
-    results: StudyResults, result: ArrayStudyResult, states: Sequence[LimitState]
-) -> Mapping[str, Any]:
+def _exported(results: StudyResults, result: ArrayStudyResult) -> Mapping[str, Any]:
     """Return the dispersions of the exported fragilities by name; empty if there are none."""
+    states = [state for state in result.states if state.fragility.fitted.is_known]
     by_state = {state.name: dispersions(results, result, state) for state in states}
     if not by_state or not is_exportable(results):
         return {}
@@ -140,9 +173,14 @@ def _exported(
         for k, (name, parts) in enumerate(zip(NAMES, by_name, strict=True))
         if k not in known
     ]
+    caption = (
+        "Dispersions of the capacity by name; β of an exported fragility is the square root of the "
+        "sum of their squares"
+    )
+    first_order = [NAMES[k] for k in known if NAMES[k] in ("friction", "slope")]
     return {
-        "lacking": f". Not included: {joined(lacking)}" if lacking else "",
-        "first_order": [NAMES[k] for k in known if NAMES[k] in ("friction", "slope")],
+        "caption": f"{caption}. Not included: {joined(lacking)}" if lacking else caption,
+        "first_order": capitalized(joined(first_order)) if first_order else "",
         "is_level_below": below == 0.0,
         "table": listed(states, columns),
     }

@@ -11,7 +11,9 @@ from markupsafe import Markup
 
 from report.document.sections import Section, filled, section
 from report.document.templates import rendered
-from report.project.read.years_file import YEARS
+from report.pages.marks import UNVERIFIED
+from report.pages.symbols import with_symbols
+from report.project.read.years_file import SUPPORTING, YEARS
 from report.results.publish import publish
 from report.study.allowed_answers import allowed
 from report.study.design_curves import curves
@@ -21,11 +23,12 @@ from report.study.fragility_section import fragility
 from report.study.page_parts import basis, limits
 from report.study.prescribed import compare, prescribed
 from report.study.run_study import RUNS, run_study
+from report.study.sentences import design, headline
 from report.study.study_plan import StudyPlan
 from report.study.study_results import StudyResults
 from report.study.study_tables import curves_csv, study_xlsx
-from report.study.wording import context, headline
 from report.study.years_section import sheets, years, years_json
+from report.text.letter_case import capitalized
 from report.typeset.pdf import TEMPLATES, lay_out
 from solver.file_checks import check_plain
 from solver.file_writing import add_folder, locked
@@ -71,18 +74,42 @@ def study_files(results: StudyResults) -> Mapping[str, bytes]:
 
 def study_html(results: StudyResults) -> str:
     """Return the report as HTML, before layout."""
-    words = context(results)
-    cover = {
+    study, manifest = results.plan.input.study, results.manifest
+    program, date = manifest["program"], study.date.isoformat()
+    libraries = ", ".join(f"{name} {program[name]}" for name in ("python", "numpy", "numba"))
+    identity = manifest["identity"][:16]
+    facts = (
+        ("Prepared by", study.prepared_by or "not stated"),
+        ("Date", date),
+        ("Runs", f"{manifest['rows']:,}"),
+        ("Program", f"Roofslip, version {program['roofslip']}; {libraries}"),
+        ("Study", identity),
+    )
+    pages = list(filled(TEMPLATES, sections(results), {"with_symbols": with_symbols}))
+    content = {
         "css": Markup((TEMPLATES / "package.css").read_text(encoding="utf-8")),
-        "sections": list(filled(TEMPLATES, sections(results), words)),
+        "title": study.title,
+        "date": date,
+        "version": program["roofslip"],
+        "identity": identity,
+        "supporting": SUPPORTING if results.years else "",
+        "about": facts,
+        "parts": [part for part, _ in pages],
+        "sections": pages,
     }
-    return rendered(TEMPLATES, "study.html", words | cover)
+    return rendered(TEMPLATES, "study.html", content)
 
 
 def sections(results: StudyResults) -> tuple[Section, ...]:
     """Return all sections except the cover and the contents."""
     allowed_m = results.plan.input.study.allowed_m
-    first = section("study/results", "Results", headline=headline(results))
+    first = section(
+        "study/results",
+        "Results",
+        headline=[with_symbols(capitalized(line)) for line in headline(results)],
+        design=with_symbols(design(results.plan.design_rule)),
+        unverified=UNVERIFIED,
+    )
     listed = [first, basis(results)]
     for b in range(len(results.plan.motions.buildings)):
         listed.append(curves(results, b))

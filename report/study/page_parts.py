@@ -15,13 +15,16 @@ import numpy as np
 from report.document.columns import text, words
 from report.document.sections import Section, section
 from report.document.tables import listed
+from report.pages.symbols import with_symbols
 from report.study import study_charts
 from report.study.capacity_runs import FREQ_HZ
+from report.study.sentences import spread
 from report.study.study_results import StudyResults
 from report.study.study_tables import length_unit
 from report.text.counts import numbered
+from report.text.letter_case import capitalized
 from report.text.names import joined
-from report.text.units import measured, no_less, number
+from report.text.units import digits_up, measured, no_less, number
 from report.text.validation import VALIDATION
 from solver.model import INCH_M, Floats
 
@@ -88,6 +91,7 @@ def basis(results: StudyResults) -> Section:
     without, motions = results.curves.without_value, results.plan.motions.motions[0]
     first, manifest, study_input = motions[0], results.manifest, results.plan.input
     model, rows = manifest["model"], manifest["rows"]
+    letters = study_input.study.intensity.letters
     models = (
         (words("Model", 3), itemgetter(0)),
         (text("Runs"), lambda model: f"{model[1]:,}"),
@@ -103,11 +107,25 @@ def basis(results: StudyResults) -> Section:
         (words("Tested values", 2.4), lambda mat: mat.tested or "none"),
         (words("Report", 1.8), lambda mat: mat.report or "none"),
     )
+    rows_of_motions = (
+        (words("Motion", 1.4), lambda motion: motion.id),
+        (text("Samples"), lambda motion: f"{motion.ax_mps2.size:,}"),
+        (text("Time step", "s"), lambda motion: f"{motion.dt_s:g}"),
+        (
+            text(with_symbols(f"Factor for {letters} = 1"), share=1.4),
+            lambda motion: f"{motion.scale:.4g}",
+        ),
+        (words("Source", 2.4), lambda motion: motion.source or "not stated"),
+    )
     return section(
         "study/basis",
         "Basis",
-        first=first,
+        n_motions=len(motions),
         components=numbered(1 + first.has_transverse + first.has_vertical, "component"),
+        letters=with_symbols(letters),
+        shaken="each horizontal component" if first.has_transverse else "the record",
+        polarity="as recorded and reversed" if len(first.signs) > 1 else "in one polarity",
+        has_transverse=first.has_transverse,
         times=numbered(len(first.orientations), "time"),
         matters_mm=f"{1000 * model['matters_m']:g}",
         matters_in=number(model["matters_m"] / INCH_M, 2),
@@ -115,8 +133,11 @@ def basis(results: StudyResults) -> Section:
         tolerance=f"{100 * model['tolerance']:g}%",
         lost=int(without.sum()),
         pairs=without.size * len(motions),
+        agreement=manifest["agreement"],
+        capacity_runs=results.capacity_runs if results.arrays else None,
         models=listed(manifest["models"].items(), models, kind="compact"),
         mats=listed(study_input.mats, mats, kind="compact"),
+        motions=listed(motions, rows_of_motions, kind="compact"),
         warnings=listed(
             results.plan.warnings,
             ((words("Cell", 1.2), itemgetter(0)), (words("Warning", 6), lambda row: f"{row[1]}.")),
@@ -126,10 +147,35 @@ def basis(results: StudyResults) -> Section:
 
 def limits(results: StudyResults) -> Section:
     """Return the section on the limits of the study."""
+    study, spectra = results.plan.input.study, results.spread
     return section(
         "study/limits",
         "Limits",
-        has_probabilities=any(result.exceedances for result in results.arrays),
-        FREQ_HZ=FREQ_HZ,
+        motions=results.plan.design_rule.n_motions,
+        has_fragilities=bool(results.arrays),
+        spread=capitalized(spread(results)) if spectra.is_known else "",
+        largest=digits_up(spectra.largest, 2) if spectra.is_known else "",
+        n_frequencies=FREQ_HZ.size,
+        low=f"{FREQ_HZ[0]:.3g}",
+        high=f"{FREQ_HZ[-1]:.3g}",
+        lacking=_lacking(results) if spectra.is_one_spectrum else "",
+        has_record_beta=bool(results.arrays) and study.record_beta is not None,
+        has_years=bool(results.years),
+        has_probability=study.site_intensity is not None,
+        has_intensities=bool(study.intensity_beta),
         validation=VALIDATION,
     )
+
+
+def _lacking(results: StudyResults) -> str:
+    """Return which results do not contain the record-to-record dispersion of earthquakes."""
+    has_beta = results.plan.input.study.record_beta is not None
+    lacking = ["the 84th percentile"]
+    if results.arrays:
+        lacking.append("the dispersions β" + (" of the fits" if has_beta else ""))
+    if any(result.exceedances for result in results.arrays):
+        lacking.append("the probabilities of exceedance")
+    if results.years:
+        entered = " but by the dispersion that is entered" if has_beta else ""
+        lacking.append(f"the rates in years{entered}")
+    return f"{joined(lacking)} {'does' if len(lacking) == 1 else 'do'}"

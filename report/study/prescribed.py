@@ -17,6 +17,7 @@ from report.document.sections import Section, section
 from report.document.tables import Table, listed
 from report.pages.symbols import with_symbols
 from report.study.page_parts import MOST_FRICTIONS, axis, by_intensity, friction_name, some
+from report.study.sentences import analysis, prescriptive, provision
 from report.study.study_results import StudyResults
 from report.study.wording import on_building
 from report.text.units import number, round_down
@@ -64,39 +65,60 @@ def compare(results: StudyResults, building: int) -> tuple[Prescribed, ...]:
 
 def prescribed(results: StudyResults, building: int, prescribed: Prescribed) -> Section:
     """Return the section on the prescriptive displacement."""
-    study_input, rules = results.plan.input, results.plan.design_rule.rules
-    limits = ((rules.name, results.plan.design_rule.prescriptive_m),)
-    names = {
-        m: friction_name(results, study_input.mus[m]) for m in some(study_input.mus, MOST_FRICTIONS)
-    }
-    slopes, mus = _extent(results, prescribed.unsafe_not_permitted)
+    study_input, rule = results.plan.input, results.plan.design_rule
+    rules, unsafe = rule.rules, int(prescribed.unsafe.sum())
+    outside = int(prescribed.unsafe_not_permitted.sum())
+    steepest_mu = required_mu(rules, math.radians(rules["prescriptive_max_slope_deg"]))
+    permitted_mu = f"{provision(rules, 'prescriptive_min_mu')} or more"
+    if steepest_mu > rules["prescriptive_min_mu"]:
+        permitted_mu += f", {number(steepest_mu, 3)} at that slope"
+    captions, charts = [], dict[str, str]()
+    for m in some(study_input.mus, MOST_FRICTIONS):
+        friction = friction_name(results, study_input.mus[m])
+        thick = f"the prescriptive displacement of {rules.name} {prescriptive(rules)} (thick)"
+        caption = f"Analysis displacement, {friction}, by slope, and {thick}."
+        captions.append((f"prescribed-{m}", caption))
+        charts[f"prescribed-{m}"] = by_intensity(
+            results, results.analysis_m[building], m, limits=((rules.name, rule.prescriptive_m),)
+        )
     return section(
         "study/prescribed",
         "Comparison with the prescriptive displacement"
         + on_building(results, building, ", building "),
         id=f"prescribed-{building}",
+        prescriptive=with_symbols(prescriptive(rules)),
+        analysis=analysis(rule),
         cases=prescribed.ratio.size,
-        unsafe=int(prescribed.unsafe.sum()),
-        outside=int(prescribed.unsafe_not_permitted.sum()),
-        slopes=slopes,
-        mus=mus,
-        steepest_mu=required_mu(rules, math.radians(rules["prescriptive_max_slope_deg"])),
-        names=names,
+        safe=prescribed.ratio.size - unsafe,
+        unsafe=unsafe,
+        rules=rules.name,
+        permitted_slope=provision(rules, "prescriptive_max_slope_deg", "°"),
+        permitted_mu=permitted_mu,
+        inside=_share(unsafe - outside, unsafe),
+        outside=_share(outside, unsafe) + _extent(results, prescribed.unsafe_not_permitted),
+        captions=captions,
         margins=_prescribed_table(results, prescribed),
-        charts={
-            f"prescribed-{m}": by_intensity(results, results.analysis_m[building], m, limits=limits)
-            for m in names
-        },
+        margins_caption=f"Where the prescriptive displacement of {rules.name} is sufficient",
+        charts=charts,
     )
 
 
-def _extent(results: StudyResults, cases: NDArray[np.bool_]) -> tuple[list[float], list[float]]:
-    """Return the slopes and the friction coefficients of cases."""
+def _share(part: int, whole: int) -> str:
+    if not part:
+        return "none"
+    return f"all {whole:,}" if part == whole else f"{part:,}"
+
+
+def _extent(results: StudyResults, cases: NDArray[np.bool_]) -> str:
+    """Return between which slopes and friction coefficients cases are; empty for none."""
     study_input = results.plan.input
-    return (
-        [study_input.slopes_deg[s] for s in np.flatnonzero(cases.any(axis=(1, 2)))],
-        [study_input.mus[m] for m in np.flatnonzero(cases.any(axis=(0, 2)))],
-    )
+    slopes = [f"{study_input.slopes_deg[s]:g}°" for s in np.flatnonzero(cases.any(axis=(1, 2)))]
+    mus = [f"{study_input.mus[m]:g}" for m in np.flatnonzero(cases.any(axis=(0, 2)))]
+    # The ends of each, which may be one.
+    extents = [
+        " to ".join(dict.fromkeys((values[0], values[-1]))) for values in (slopes, mus) if values
+    ]
+    return ": slopes of {}, μ of {}".format(*extents) if extents else ""
 
 
 def _prescribed_table(results: StudyResults, prescribed: Prescribed) -> Table:

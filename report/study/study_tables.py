@@ -17,9 +17,9 @@ from report.pages.marks import UNVERIFIED
 from report.project.read.years_file import SUPPORTING
 from report.results.sheet_pages import text_workbook
 from report.study.dispersions import NAMES, dispersions, exported, is_exportable, is_refused
+from report.study.sentences import analysis, design, taken_over
 from report.study.study_plan import ArrayPlan
 from report.study.study_results import ArrayStudyResult, LimitState, StudyResults
-from report.study.wording import sentence, taken_over
 from report.text.csv_text import csv_text
 from report.text.letter_case import capitalized
 from report.text.unit_format import UnitFormat
@@ -131,7 +131,7 @@ def _about(results: StudyResults) -> Iterator[Row]:
     yield "Identity of the manifest", manifest["identity"]
     yield from manifest["program"].items()
     yield "Agreement of a repetition", manifest["agreement"]
-    yield "Design displacement", sentence(results, "design")
+    yield "Design displacement", design(results.plan.design_rule)
     yield "Marks", UNVERIFIED
 
 
@@ -222,7 +222,7 @@ def _formula(results: StudyResults) -> Iterator[Row]:
         yield (
             building,
             "fitted, Δ_RHA",
-            f"analysis displacement: {sentence(results, 'analysis')}, in m",
+            f"analysis displacement: {analysis(results.plan.design_rule)}, in m",
         )
         for number, value in enumerate(fit.coefficients):
             yield building, f"b{number}", value

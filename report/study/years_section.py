@@ -6,7 +6,7 @@ Computes nothing but units and probabilities. Read `years`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import Any
 
@@ -18,9 +18,10 @@ from report.project.read.years_file import NEVER, SUPPORTING, Distance, StudyYea
 from report.study import study_charts
 from report.study import years as rates
 from report.study.page_parts import axis, design_length
+from report.study.sentences import about_array
 from report.study.study_results import StudyResults
 from report.study.study_tables import Row, length_unit, who
-from report.study.wording import both, chance, on_building
+from report.study.wording import both, chance, level, on_building
 from report.study.years import ArrayYears
 from report.text.counts import numbered
 from report.text.error_text import scientific
@@ -28,34 +29,39 @@ from report.text.names import slug
 from report.text.units import digits_down, digits_up, number
 from solver.model import INCH_M
 from solver.studies import lives, predictive
-from solver.studies.rates import LEAST_RATE
+from solver.studies.predictive import Predictive
+from solver.studies.rates import LEAST_RATE, HazardCurve
 
 
 def years(results: StudyResults, array_years: ArrayYears) -> Section:
     """Return the section on the rates and the lives of an array."""
-    plan = array_years.plan
+    plan, study, found = array_years.plan, results.plan.input.study, array_years.predicted
     name = f"{plan.array.id}{on_building(results, plan.building, ', building ')}"
-    (curve,), unit = results.plan.hazard, length_unit(results)
-    # Each motion is run up to its own uplift.
-    ends = array_years.responses.levels.max(axis=1)
-    lost = array_years.statistics[NEVER][0].without_value
+    (curve,), motion = results.plan.hazard, results.plan.motions.motions[0][0]
+    hazard, life = results.plan.input.hazard, f"{rates.LIFE_YEARS:g} years"
+    lost, slip = array_years.statistics[NEVER][0].without_value, array_years.slip
+    unit, settled_m = length_unit(results), lives.SETTLED_M
+    untested = f"μ = {array_years.mus[0]:g} without scatter, as no test is given"
+    friction = f"mean μ of its tests {number(found[0].mean, 3)}" if found else untested
     return section(
         "study/years",
-        f"Rates and {rates.LIFE_YEARS:g} years of {name}",
+        f"Rates and {life} of {name}",
         id=f"years-{slug(name)}",
-        one=array_years,
-        array=plan.array,
-        hazard=results.plan.input.hazard,
-        curve=curve,
-        lifts=ends.min() < 0.999 * curve.top,
-        top=float(ends.max()),
+        supporting=SUPPORTING,
+        about=about_array(results, plan.array, friction),
+        hazard=hazard,
+        record_beta=study.record_beta,
+        record_source=study.record_source,
+        end=with_symbols(level(results, curve.intensity[-1])),
         longest=digits_down(1 / curve.rate[-1], 3) if curve.is_ended else "",
-        settled={
-            "share": f"{digits_up(100 * array_years.change, 2)}%",
-            "mm": f"{1000 * lives.SETTLED_M:g}",
-            "inch": digits_up(lives.SETTLED_M / INCH_M, 1),
-        },
-        levels=array_years.responses.levels[0].size,
+        start=with_symbols(level(results, curve.intensity[0])),
+        slip=_intensity(results, slip) if slip < curve.intensity[0] else "",
+        motions=results.plan.design_rule.n_motions,
+        orientations=len(motion.orientations),
+        **_ends(results, array_years, curve),
+        change=f"{digits_up(100 * array_years.change, 2)}%",
+        settled_mm=f"{1000 * settled_m:g}",
+        settled_in=digits_up(settled_m / INCH_M, 1),
         recurrences=_recurrences(results, array_years),
         is_ended=any(math.isinf(high_m) for *_, high_m in array_years.recurrences),
         clearance_rate="{} ({} to {})".format(*map(scientific, array_years.clearance_rates)),
@@ -63,19 +69,40 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
             f"{chance(*values)} in {span:g} years" for span, values in array_years.chances.items()
         ),
         bins=_bins(results, array_years),
-        life=f"{rates.LIFE_YEARS:g} years",
-        lost=f"{digits_up(100 * lost, 2)}%" if lost else "",
+        life=life,
+        lives=rates.LIVES,
+        farther=both(results, hazard.recenter_m) if hazard.recenter_m else "",
+        has_transverse=motion.has_transverse,
         statistics=_statistics(results, array_years),
-        first_motion=results.plan.motions.motions[0][0],
-        SUPPORTING=SUPPORTING,
-        LEAST_RATE=LEAST_RATE,
-        LIVES=rates.LIVES,
+        statistics_caption=f"Distance from the installed place in {life}",
+        lost=f"{digits_up(100 * lost, 2)}%" if lost else "",
+        friction=_friction(results, array_years, *found) if found else {},
         charts={
             "rates": study_charts.rates(array_years, curve, unit, axis(results)),
             "lives": study_charts.lives(array_years, unit),
         },
-        **_friction(results, array_years),
     )
+
+
+def _intensity(results: StudyResults, value: float) -> str:
+    return f"{digits_down(value, 3)} {results.plan.input.study.intensity.unit}"
+
+
+def _ends(
+    results: StudyResults, array_years: ArrayYears, curve: HazardCurve
+) -> Mapping[str, str | int]:
+    """Return how many intensities are run, up to which, and what is said of events beyond."""
+    # Each motion is run up to its own uplift.
+    ends = array_years.responses.levels.max(axis=1)
+    lifts, top = ends.min() < 0.999 * curve.top, _intensity(results, float(ends.max()))
+    beyond = f"together have a rate of {scientific(LEAST_RATE)} a year"
+    if curve.is_ended or lifts:
+        beyond = "lift the array off or are beyond the curve"
+    return {
+        "levels": array_years.responses.levels[0].size,
+        "top": f"that which lifts the array off, at most {top}" if lifts else top,
+        "beyond": beyond,
+    }
 
 
 _RUNS = (
@@ -86,21 +113,29 @@ _RUNS = (
 )
 
 
-def _friction(results: StudyResults, array_years: ArrayYears) -> dict[str, Any]:
-    """Return the friction as measured, and what it means for the displacement."""
-    surfaces = results.plan.input.surfaces(array_years.plan.array.mat)
-    of_mat = array_years.predicted
+def _friction(
+    results: StudyResults, array_years: ArrayYears, found: Predictive
+) -> Mapping[str, Any]:
+    """Return the friction of a mat as measured, and what it means for the displacement."""
+    mat = array_years.plan.array.mat
+    surfaces, between = results.plan.input.surfaces(mat), ""
+    if len(surfaces) > 1:
+        between = f"; the means of the surfaces with one of {number(found.between, 4)}"
+        if not math.isnan(found.p_value):
+            between += f" (p of equal means {digits_up(found.p_value, 2)})"
     return {
-        "friction": (
-            f"mean μ of its tests {number(of_mat[0].mean, 3)}"
-            if of_mat
-            else f"μ = {array_years.mus[0]:g} without scatter, as no test is given"
-        ),
-        "surfaces": surfaces,
         "runs": listed(surfaces, _RUNS, kind="compact"),
-        "by_friction": _by_friction(results, array_years) if of_mat else None,
+        "caption": f"Runs of mat {mat}",
+        "within": number(found.within, 4),
+        "freedom": found.freedom,
+        "between": between,
+        "mean": number(found.mean, 3),
+        "scale": number(found.scale, 4),
+        "least": number(found.quantiles[0], 3),
         "quantile": f"{100 * predictive.QUANTILES[0]:g}%",
-        "verdict": _verdict(array_years) if of_mat else "",
+        "most": number(found.quantiles[-1], 3),
+        "prds": _by_friction(results, array_years),
+        "verdict": _verdict(array_years),
     }
 
 

@@ -34,9 +34,9 @@ from report.study.exports import export_files
 from report.study.outputs import study_html
 from report.study.prescribed import compare
 from report.study.run_study import planned, run_study
+from report.study.sentences import design, headline
 from report.study.study_input import Intensity, NoValue, StudyArray, StudyBuilding
 from report.study.study_tables import curves_csv, study_xlsx
-from report.study.wording import headline, sentence
 from report.text.units import Quantity
 
 
@@ -218,7 +218,7 @@ def test_the_workbook_holds_summaries_only(made, results):
     ):
         assert curve[head] == pytest.approx(values[0, 0, 0, 11] / 0.0254)
     about = {row["What"]: row["Value"] for row in sheet_rows(results, "Study")}
-    assert about["Design displacement"] == sentence(results, "design")
+    assert about["Design displacement"] == design(results.plan.design_rule)
     for row, state in zip(sheet_rows(results, "Fragility"), results.arrays[0].states, strict=False):
         wanted = state.fragility.fitted.theta
         assert row["Median theta"] == ("none" if math.isnan(wanted) else pytest.approx(wanted))

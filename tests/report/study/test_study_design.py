@@ -20,9 +20,10 @@ from report.study.allowed_answers import allowed
 from report.study.page_parts import design_length
 from report.study.prescribed import compare
 from report.study.run_study import planned, run_study
+from report.study.sentences import design, headline
 from report.study.study_input import Intensity, Mat, RuleSetName, StudyArray
 from report.study.study_results import STATISTICS
-from report.study.wording import both, headline, sentence
+from report.study.wording import both
 from solver.rules.provisions import analysis_floor_m, analysis_value, prescriptive_displacement
 from solver.rules.rulesets import RULE_SETS
 from solver.studies.fragility import Lognormal
@@ -89,7 +90,7 @@ def test_the_rule_set_and_the_number_of_motions_decide(tmp_path, motions, rule_s
         )
         wanted = max(analysis_value(rules, prd).value_m, least)
         assert found.design_m[0, 1, 0, x] == pytest.approx(wanted, rel=1e-12)
-    said = sentence(found, "design")
+    said = design(found.plan.design_rule)
     assert rule_set in said
     assert ("1.1† times the mean PRD" in said) == (motions >= 7)
     assert ("1.1† times the largest PRD" in said) == (motions < 7)
@@ -191,7 +192,7 @@ def test_printed_and_exported_answers_are_on_the_safe_side(results, values, allo
     found = made_up(results, values)
     axes = found.plan.input
     levels = axes.intensities
-    for name, frictions, slopes in allowed(found, 0, allowed_m).content["answers"]:
+    for name, frictions, _, slopes, _ in allowed(found, 0, allowed_m).content["answers"]:
         lengths = found.displacements[name][0]
         for line, row in enumerate(frictions.rows):
             for x, cell in enumerate(row.cells[1:]):

@@ -23,9 +23,9 @@ from report.study.capacity_runs import curves_of
 from report.study.dispersions import dispersions, exported
 from report.study.exports import component_id, export_files, known_states
 from report.study.run_study import estimate, planned, run_study
+from report.study.sentences import headline
 from report.study.study_input import Intensity, StudyArray
 from report.study.study_plan import FRICTION, SLOPE
-from report.study.wording import headline
 from solver.studies.capacity import capacities
 from solver.studies.fragility import UNKNOWN, Lognormal, fit_lognormal
 from solver.studies.runs import Runner, Track

@@ -16,8 +16,8 @@ from fixtures.study_workbooks import command, sheet_rows, small, write
 from report.study.exports import export_files
 from report.study.outputs import make_study
 from report.study.run_study import planned, run_study
+from report.study.sentences import headline
 from report.study.user_key import KEY_BYTES, state_folder, user_key
-from report.study.wording import headline
 from solver.errors import InputError
 from solver.file_writing import LOCK, locked
 

@@ -25,10 +25,10 @@ from report.study.capacity_runs import spectral_spread
 from report.study.exports import export_files
 from report.study.fragility_section import fragility as fragility_page
 from report.study.run_study import planned, run_study
+from report.study.sentences import headline, warnings
 from report.study.study_input import StudyArray
 from report.study.study_plan import FRICTION, SLOPE, ArrayPlan
 from report.study.study_results import ArrayStudyResult
-from report.study.wording import headline, sentence
 from report.text.units import digits_down
 from solver.studies.fragility import Lognormal
 from solver.studies.uncertainty import Spread
@@ -130,7 +130,7 @@ def test_allow_matched_writes_the_warning_in_the_comments(results):
         "the median, as motions matched to one spectrum do, and β does not contain the "
         "record-to-record dispersion of earthquakes. Written with --allow-matched."
     )
-    assert sentence(found, "warnings") == wanted
+    assert warnings(found) == [wanted]
     assert f" {wanted} Study " in library(found)["BSA.S1"]["Comments"]
     assert headline(found)[-1] == wanted.rstrip(".")
 
