@@ -48,6 +48,7 @@ class FileSection(NamedTuple):
     number: str  # as in the package
     title: str
     body: Markup
+    rest: Markup  # of the plan: from the end of its figure on
 
 
 def page(package: str, assessment: Assessment, fingerprint: str, results: bytes) -> bytes:
@@ -168,11 +169,14 @@ def _sections(package: str, shades: Mapping[str, str]) -> list[FileSection]:
         # A large plan is a section of its own, without a heading.
         if id in SECTIONS and section.get("class") != "contents":
             bodies.setdefault(id, []).append(_markup(section, numbers, shades))
-    return [
-        FileSection(id, numbers[id], titles[id], Markup("".join(bodies[id])))
-        for id in SECTIONS
-        if id in bodies
-    ]
+    sections = []
+    for id in SECTIONS:
+        if id in bodies:
+            body = "".join(bodies[id])
+            end = body.index("</figure>") if id == "plan" else len(body)
+            parts = Markup(body[:end]), Markup(body[end:])
+            sections.append(FileSection(id, numbers[id], titles[id], *parts))
+    return sections
 
 
 def _markup(section: Element, numbers: Mapping[str, str], shades: Mapping[str, str]) -> str:

@@ -59,6 +59,8 @@ def building_part(
         "peaks": _peaks(package, components),
         "range": _range([value.mean_m for _, value in variations]),
         "variations": _variations(package, variations),
+        "variations_caption": f"Array {package.assessment.governing.id} with the building as used, "
+        "in the first row, and with other periods and other damping",
     }
 
 

@@ -11,6 +11,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from markupsafe import Markup
+
 from report.assessment.checks.rule_limits import building_limits, of_limit
 from report.assessment.checks.sentence import words
 from report.assessment.design.arrays import ArrayAssessment
@@ -20,6 +22,7 @@ from report.pages.array_tables import comparison_table
 from report.pages.marks import prescriptive_key
 from report.pages.parts import PackageData
 from report.pages.study_years import study_years
+from report.pages.symbols import with_symbols
 from report.text.counts import numbered
 from report.text.grouping import ids_by
 from report.text.letter_case import capitalized
@@ -38,10 +41,14 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "floor_clause": marks.clause("analysis_floor"),
         "floor_percent": number(100.0 * done.rules["analysis_floor"], 0),
         "takes_larger": has_floor and any(item.route is Route.ANALYSIS for item in done.arrays),
-        "cases": [
-            (case.array.id, case.changed, package.fmt.both_up(case.array.design_m))
+        "cases": Markup("; ").join(
+            Markup("{} with {}, {}").format(
+                case.array.id,
+                with_symbols(case.changed),
+                package.fmt.both_up(case.array.design_m),
+            )
             for case in evidence.cases
-        ],
+        ),
         "arrays": comparison_table(package),
         "is_seaoc": done.rules.name.startswith("SEAOC"),
         "routes": [(named(ids, "Array"), words) for words, ids in routes.items()],

@@ -44,10 +44,10 @@ def page(package: PackageData) -> Mapping[str, object]:
         if n_overrides
         else "",
         # What asks for less than the rule set stands in the letter, too.
-        "lowered": [
+        "lowered": "; ".join(
             f"{lowered(check.title)}: {check.found} (required: {check.limit})"
             for check in lowered_checks
-        ],
+        ),
         "has_no_floor": bool(data.is_peer_reviewed and by_analysis(done)),
         "excepted": excepted(done),
         "is_unpermitted": any(math.isnan(item.permitted_m) for item in done.arrays),

@@ -99,6 +99,7 @@ def _motion(package: PackageData) -> Mapping[str, object]:
         "up": f"{number(up_g, 3)}{NO_BREAK}g"
         if up_g > 0.0
         else "none: the array cannot slide upslope",
+        "section": f"Section through array {array.id} with its free body",
         "drawn": drawn,
         "weight": fmt.both(array.weight_pa, Quantity.PRESSURE),
         "other_weights": _other_weights(package, array),
@@ -121,6 +122,7 @@ def _prescriptive(package: PackageData) -> Mapping[str, object]:
     rules, site, array = done.rules, package.data.site, done.governing
     delta, mark = array.prescriptive, marks.of("prescriptive_factor_in")
     routes = alike(check for check in done.checks if check.id == "design")
+    i_e = "" if rules.importance_in_separation else r"I_e\,"
     return {
         "sdc": site.sdc_text,
         "prescriptive": fmt.both_up(delta.value_m, marks.prescriptive(array)),
@@ -128,6 +130,7 @@ def _prescriptive(package: PackageData) -> Mapping[str, object]:
         "prescriptive_clause": marks.clause(prescriptive_key(array)),
         "factor_clause": marks.clause("prescriptive_factor_in"),
         "has_importance_in_separation": rules.importance_in_separation,
+        "prescriptive_equation": rf"\Delta_{{MPV}}=k_p\,{i_e}(S_{{DS}}-0.4)^2\geq\Delta_{{min}}",
         "prescriptive_factor": f"{rules['prescriptive_factor_in']:g}{NO_BREAK}in{mark}",
         "i_e": number(site.i_e, 2),
         # Below 0.4, the square of S_DS - 0.4 would rise again, the weaker the earthquake.
@@ -153,9 +156,10 @@ def _analysis(package: PackageData) -> Mapping[str, object] | None:
         "mean_of": fraction(" + ".join(peaks), str(len(array.motions))),
         "unit": fmt.units()[0].symbol,
         "mean": fmt.both_up(analysis.mean_m),
-        "worst_motion": array.worst.motion.id,
+        "worst": f"motion {array.worst.motion.id}",
         "largest": fmt.both_up(analysis.largest_m),
-        "takes_largest": is_largest,
+        "equation": r"\Delta_{RHA}=k_a\,"
+        + (r"\Delta_{max}" if is_largest else r"\overline{\Delta}"),
         "clause": marks.clause("analysis_factor"),
         "factor": number(analysis.factor, 2) + marks.of("analysis_factor"),
         "peak": fmt.both_up(analysis.largest_m if is_largest else analysis.mean_m),
@@ -172,6 +176,7 @@ def _design(package: PackageData) -> Mapping[str, object]:
     first_m, second_m = (
         (analysis.value_m, array.floor_m) if by_analysis else (given_m, analysis.largest_m)
     )
+    larger = r"\Delta_{RHA},\,\Delta_{floor}" if by_analysis else r"\Delta_{MPV},\,\Delta_{max}"
     return {
         "is_peer_reviewed": package.data.is_peer_reviewed,
         "floor_clause": marks.clause("analysis_floor"),
@@ -181,6 +186,7 @@ def _design(package: PackageData) -> Mapping[str, object]:
         "floor": fmt.both_up(array.floor_m, marks.floor(array)),
         "by_analysis": by_analysis,
         "has_design": not math.isnan(array.design_m),
+        "design_equation": rf"\Delta=\mathrm{{max}}({larger})",
         "of_both": f"{fmt.both_up(first_m)}, {fmt.both_up(second_m)}",
         "design": fmt.both_up(array.design_m, marks.design(array)),
         "source": array.source,
@@ -255,7 +261,9 @@ def _separations(package: PackageData) -> Mapping[str, object]:
             note = f" {check.note} =" if check.note else ""
             lines.append((f"{check.title}, {check.subject}:{note}", *_compared(check, us_first)))
     unknown = [item.id for item in done.arrays if math.isnan(item.permitted_m)]
+    importance = r"I\," if done.rules.importance_in_separation else ""
     return {
+        "separation_equation": rf"s_{{req}}=k\,{importance}\Delta",
         "separation_clauses": ", ".join(sorted(clauses)),
         "separations": lines,
         "unknown": named(unknown, "Array") if unknown else "",

@@ -78,6 +78,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
         "drift": _drift_table(package, fmt.units()[0]),
         "drift_limit": fmt.both(DRIFT_M),
         "highpass": _highpass_table(package, evidence.highpass) if evidence.highpass else None,
+        "highpass_caption": f"Effect of the high-pass filter: PRD of array {done.governing.id}",
         "governing": done.governing.id,
         "has_own_target": targets.roof.name == OWN,
         "tail": Tail(package.data.target.tail).sentence,

@@ -111,6 +111,9 @@ def _some(names: Sequence[object]) -> str:
     return ", ".join(str(name) for name in names[:_MOST_NAMES]) + further
 
 
+_SCHEDULE = "Schedule of clearances"
+
+
 def _schedules(package: PackageData, beside: Schedule, fmt: UnitFormat) -> Mapping[str, object]:
     """Return the schedule of clearances as it stands around the plan.
 
@@ -118,17 +121,18 @@ def _schedules(package: PackageData, beside: Schedule, fmt: UnitFormat) -> Mappi
     """
     schedule = plan_schedule(package, fmt)
     starts = [sum(beside.rows[:k]) for k in range(len(beside.rows))]
-    columns = [
+    parts = [
         part_of(schedule, start, start + count, is_narrow=True)
         for start, count in zip(starts, beside.rows, strict=True)
     ]
+    captions = [_SCHEDULE, *[f"{_SCHEDULE}, continued"] * len(parts)]
     return {
         "schedule": schedule,
         "narrow_schedule": part_of(schedule, 0, is_narrow=True),
-        "columns": columns,
+        "columns": list(zip(captions, parts, strict=False)),
         "has_arrays_beside": beside.has_arrays,
         "schedule_below": part_of(schedule, sum(beside.rows)),
-        "is_continued": sum(beside.rows) > 0,
+        "caption_below": captions[1 if sum(beside.rows) else 0],
     }
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 from operator import attrgetter, methodcaller
 
 from markupsafe import Markup
@@ -15,6 +16,7 @@ from report.assessment.design.friction import mu_words
 from report.assessment.support.evidence import Evidence
 from report.document.columns import ColumnHead, required, text, words
 from report.document.tables import Column, Table, TableRow, Wide, listed
+from report.pages.histories import axes
 from report.pages.parts import PackageData, bar, statistic
 from report.project.model.choices import Direction
 from report.runs import MotionRun
@@ -43,11 +45,10 @@ def below(package: PackageData) -> tuple[tuple[str, str], ...]:
 def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
     """Return the results of every group of arrays that share their runs, without the charts."""
     done = package.assessment
-    followed = [history for paths in evidence.histories for history in paths]
     return {
         "has_transverse": any(motion.has_transverse for motion in done.shaking.motions),
         "groups": [_results(package, group) for group in done.alike],
-        "is_drawn_across": any(history.across_m.size for history in followed),
+        "axes": axes(chain.from_iterable(evidence.histories)),
     }
 
 

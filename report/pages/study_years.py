@@ -15,6 +15,11 @@ from report.text.names import named
 from report.text.unit_format import UnitFormat
 from report.text.units import number
 
+_COMPARED = (
+    "For comparison with the design displacement (supporting analysis, not a code value): PRD with "
+    "a mean recurrence of 700 years, and distance from the installed location in"
+)
+
 
 def study_years(package: PackageData) -> Iterator[Mapping[str, object]]:
     """Yield the study of years with its file, and the arrays of both; nothing without one."""
@@ -35,6 +40,7 @@ def study_years(package: PackageData) -> Iterator[Mapping[str, object]]:
         unlike = [array.id for array, array_years in shared if _is_unlike(array, array_years)]
         yield {
             "life": general(study.life_years),
+            "caption": f"{_COMPARED} {general(study.life_years)} years",
             "note": study.note,
             "title": study.title,
             "date": study.date,
