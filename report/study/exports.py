@@ -24,7 +24,7 @@ from report.study.wording import both
 from report.text.csv_text import csv_text
 from report.text.letter_case import capitalized
 from report.text.names import joined
-from report.text.units import digits_down, digits_up
+from report.text.units import digits_down, digits_up, spaced
 
 LIBRARY = "fragility.csv"
 
@@ -98,7 +98,7 @@ def _component(results: StudyResults, result: ArrayStudyResult) -> Row:
 
 def _comments(results: StudyResults, result: ArrayStudyResult) -> str:
     """Return what the array, its measure and its dispersions are, and every warning."""
-    return " ".join(_remarks(results, result))
+    return spaced(" ".join(_remarks(results, result)))
 
 
 def _remarks(results: StudyResults, result: ArrayStudyResult) -> Iterator[str]:

@@ -154,6 +154,7 @@ def test_an_entered_record_to_record_value_replaces_that_of_the_motions(results)
         "rigid block with Coulomb friction."
     )
     assert said in row["Comments"]
+    assert "\u00a0" not in row["Comments"]
     page = pages.study(found)
     assert "the dispersions β of the fits do not contain how much the spectra" in page
     assert "contains the record-to-record dispersion that is entered" in page
