@@ -8,7 +8,7 @@ from report.document.sections import Section, section
 from report.manual import stability_maps
 from report.text.error_text import percent
 from report.text.units import NO_BREAK
-from solver.verification.evidence import Verification
+from solver.verification.evidence import StabilityMap, Verification
 
 
 def stability(verification: Verification) -> Section:
@@ -23,13 +23,7 @@ def stability(verification: Verification) -> Section:
         "manual/stability",
         "Stability",
         by_chart=[
-            (
-                name,
-                [
-                    f"({count}) {sweep.note} Failed: {sweep.failed.sum()} of {sweep.failed.size} cells."
-                    for count, sweep in maps
-                ],
-            )
+            (name, [f"({count}) {_note(sweep)}" for count, sweep in maps])
             for name, maps in by_chart.items()
         ],
         charts={
@@ -37,6 +31,10 @@ def stability(verification: Verification) -> Section:
             for name, maps in by_chart.items()
         },
     )
+
+
+def _note(sweep: StabilityMap) -> str:
+    return f"{sweep.note} Failed: {sweep.failed.sum()} of {sweep.failed.size} cells."
 
 
 def conditioning(verification: Verification) -> Section:

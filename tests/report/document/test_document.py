@@ -11,7 +11,7 @@ from fixtures.spaces import spaced
 from report.cli.console import plain
 from report.document.columns import required, text, words
 from report.document.tables import Wide, listed, merged
-from report.document.templates import rendered, said, state_of
+from report.document.templates import rendered, state_of
 from report.text.unit_format import UnitFormat
 from report.text.units import Quantity, no_less, pair, with_unit
 
@@ -101,13 +101,11 @@ def test_where_nothing_can_be_kept_a_template_is_compiled(tmp_path):
 
 
 def test_a_page_keeps_a_number_and_its_unit_together_and_the_screen_has_plain_blanks(tmp_path):
-    text = "{% macro words() %}<b>{{ found }}</b>{% endmacro %}{{ words() }}"
-    (tmp_path / "page.html").write_text(text, encoding="utf-8")
-    found = {"found": f"{pair(0.3048, Quantity.SIZE)} < 3 inches, {with_unit('1.5', 'g')}"}
-    page = rendered(tmp_path, "page.html", found)
+    (tmp_path / "page.html").write_text("<b>{{ words }}</b>", encoding="utf-8")
+    words = f"{pair(0.3048, Quantity.SIZE)} < 3 inches, {with_unit('1.5', 'g')}"
+    page = rendered(tmp_path, "page.html", {"words": words})
     assert page == "<b>12.0\u00a0in (305\u00a0mm) &lt; 3 inches, 1.5\u00a0g</b>"
-    words = plain(said(tmp_path, "page.html", "words", found))
-    assert words == "<b>12.0 in (305 mm) < 3 inches, 1.5 g</b>"
+    assert plain(words) == "12.0 in (305 mm) < 3 inches, 1.5 g"
 
 
 @pytest.mark.parametrize(
