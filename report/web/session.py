@@ -36,6 +36,9 @@ IN_BACKGROUND = "verdict"
 PERFORM = "report.web.jobs:perform"
 """What a process does with a job; this one does not load it."""
 
+# The processes by name: of sliders that move, and of all else.
+_QUICK, _FULL = "quick", "full"
+
 # A job that ends two processes will end a third.
 _TRIES = 2
 
@@ -99,8 +102,8 @@ class Session:
         self._open = {EXAMPLE_NAME: EXAMPLE}  # by name, the one opened last at the end
         self._names: dict[str, str] = {}  # by what addresses call the project
         self._openings = 0
-        self._processes: dict[bool, WorkerProcess] = {}
-        self._busy: set[bool] = set()
+        self._processes: dict[str, WorkerProcess] = {}
+        self._busy: set[str] = set()
         self._turns = asyncio.Condition()
         self._newest: dict[tuple[object, ...], Asked] = {}
         self._preparing: set[asyncio.Task[None]] = set()
@@ -144,18 +147,18 @@ class Session:
 
     def start(self) -> None:
         """Start the processes, each with the example, as the page will ask first."""
-        self._busy = {True, False}
+        self._busy = {_QUICK, _FULL}
         self._begin(self._warm())
 
     async def _warm(self) -> None:
         # The first answer comes sooner from one that starts alone.
-        for is_quick, do in ((False, "state"), (True, "prepare")):
+        for name, do in ((_FULL, "state"), (_QUICK, "prepare")):
             job = {"do": do, "workbook": str(EXAMPLE)}
             with suppress(LostError):
-                reply = await self._answer(job, is_quick, longest_s=None)  # may compile the solver
+                reply = await self._answer(job, name, longest_s=None)  # may compile the solver
                 if project := reply.get("answer", {}).get("project"):
                     self._names[project["id"]] = EXAMPLE_NAME
-            await self._end_turn(is_quick)
+            await self._end_turn(name)
 
     def prepare(self, workbook: Path) -> None:
         """Have the quick process read a workbook, while the other one computes its state."""
@@ -163,11 +166,11 @@ class Session:
 
     async def _prepare(self, workbook: Path) -> None:
         async with self._turns:
-            await self._turns.wait_for(lambda: True not in self._busy)
-            self._busy.add(True)
+            await self._turns.wait_for(lambda: _QUICK not in self._busy)
+            self._busy.add(_QUICK)
         with suppress(LostError):
-            await self._answer({"do": "prepare", "workbook": str(workbook)}, True, LONGEST_S)
-        await self._end_turn(True)
+            await self._answer({"do": "prepare", "workbook": str(workbook)}, _QUICK, LONGEST_S)
+        await self._end_turn(_QUICK)
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> None:
         task = asyncio.create_task(work)
@@ -181,8 +184,8 @@ class Session:
             task.cancel()
         await asyncio.gather(*self._preparing, return_exceptions=True)
         await self.packages.stop()
-        for is_quick in list(self._processes):
-            self._end(is_quick)
+        for name in list(self._processes):
+            self._end(name)
 
     async def ask(self, job: Mapping[str, Any], asked: Asked | None = None) -> Mapping[str, Any]:
         """Return the answer to a job, about what was opened last if it names no workbook.
@@ -193,13 +196,13 @@ class Session:
         job = {"workbook": str(self.workbook(asked.opened if asked else None)), **job}
         if asked:
             self._note(job["do"], asked)
-        is_quick = await self._turn(job["do"], asked)
+        name = await self._turn(job["do"], asked)
         try:
             if asked:
                 job["reference"] = self._references.get(job["workbook"], {})
-            reply = await self._answer(job, is_quick, LONGEST_S)
+            reply = await self._answer(job, name, LONGEST_S)
         finally:
-            await self._end_turn(is_quick)
+            await self._end_turn(name)
         if "reference" in reply:
             self._references[job["workbook"]] = reply["reference"]
         if "answer" in reply:
@@ -210,29 +213,31 @@ class Session:
         first = reply["refused"] if "refused" in reply else reply["problems"][0]["text"]
         raise RefusedError(first, reply["problems"])
 
-    async def _turn(self, kind: str, asked: Asked | None) -> bool:
-        """Wait until a process is free, and return whether it is the quick one."""
+    async def _turn(self, kind: str, asked: Asked | None) -> str:
+        """Wait until a process is free, and return its name."""
         async with self._turns:
             self._turns.notify_all()  # what this one replaces ends at once: a browser waits for six
             await self._turns.wait_for(
                 lambda: self._is_stale(kind, asked) or self._free(kind, asked)
             )
-            if self._is_stale(kind, asked):
+            name = self._free(kind, asked)
+            if name is None or self._is_stale(kind, asked):
                 raise StaleError
-            is_quick = self._free(kind, asked)[0]
-            self._busy.add(is_quick)
-            return is_quick
+            self._busy.add(name)
+            return name
 
-    async def _end_turn(self, is_quick: bool) -> None:
-        self._busy.discard(is_quick)
+    async def _end_turn(self, name: str) -> None:
+        self._busy.discard(name)
         async with self._turns:
             self._turns.notify_all()
 
-    def _free(self, kind: str, asked: Asked | None) -> Sequence[bool]:
-        """Return which processes may do a job now: either of them, for a move."""
-        # A verdict of the background takes the quick one, all else but a move the other.
-        able = (True, False) if asked and asked.moving else (kind == IN_BACKGROUND,)
-        return [each for each in able if each not in self._busy]
+    def _free(self, kind: str, asked: Asked | None) -> str | None:
+        """Return the name of a process that may do a job now; none if all are busy."""
+        if asked and asked.moving:
+            able = [_QUICK, _FULL]
+        else:
+            able = [_QUICK if kind == IN_BACKGROUND else _FULL]
+        return next((name for name in able if name not in self._busy), None)
 
     def _note(self, kind: str, asked: Asked) -> None:
         for key in ((asked.page, kind, asked.moving), (asked.page,)):
@@ -249,28 +254,28 @@ class Session:
         return is_asked_anew or (is_elsewhere and not asked.moving)
 
     async def _answer(
-        self, job: Mapping[str, Any], is_quick: bool, longest_s: float | None
+        self, job: Mapping[str, Any], name: str, longest_s: float | None
     ) -> Mapping[str, Any]:
         """Have a process do a job; where it ends, another one does it, once."""
         for _ in range(_TRIES):
             try:
-                if is_quick not in self._processes:
-                    self._processes[is_quick] = begun(self.folder)
+                if name not in self._processes:
+                    self._processes[name] = begun(self.folder)
                 # Not `wait_for`: it drops a cancellation that comes with the answer.
                 async with asyncio.timeout(longest_s):
-                    asking = self._processes[is_quick].submit(PERFORM, job)
+                    asking = self._processes[name].submit(PERFORM, job)
                     return await asyncio.wrap_future(asking)
             except TimeoutError as error:
-                self._end(is_quick)
+                self._end(name)
                 told = f"This took longer than {longest_s:.0f} s and was stopped."
                 raise LostError(told) from error
             except Exception as error:  # it ended, sent what is no answer, or does not start
-                self._end(is_quick)
+                self._end(name)
                 lost = error
         raise LostError from lost
 
-    def _end(self, is_quick: bool) -> None:
-        if process := self._processes.pop(is_quick, None):
+    def _end(self, name: str) -> None:
+        if process := self._processes.pop(name, None):
             process.shutdown()
 
 

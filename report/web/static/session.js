@@ -59,18 +59,17 @@ export function createSession(assess, fail) {
 // Asks for the answers of a session, provisional and full, each once at a time.
 function createRuns(state, set, assess, fail) {
   let [version, timer] = [0, 0]; // of the values; until the slider rests
-  let isMoving = false; // a slider moved since the full model was last asked
-  let isFull = true; // nothing is to be computed but what an answer lacks
+  let stage = "full"; // "moving" and "settling" as the phase; "full": nothing is to be computed but what an answer lacks
   let isHeld = false; // by the pointer: what an answer lacks is asked once it lets go
 
   async function ask(moving, whole = false) {
     const [asked, values] = [version, state.values]; // replaced, never written to
-    const isWanted = () => (moving && isMoving) || (asked === version && !(moving && isFull));
+    const isWanted = () => (moving && stage === "moving") || (asked === version && !(moving && stage === "full"));
     try {
       const answer = await assess(moving, values, whole);
       if (!answer || !isWanted()) return;
-      isFull = !moving;
-      set({ ...answered(answer, values), ...(moving && { phase: isMoving ? "moving" : "settling", shows: "provisional" }) });
+      if (!moving) stage = "full";
+      set({ ...answered(answer, values), ...(moving && { phase: stage, shows: "provisional" }) });
       if (answer.pending && !isHeld) await ask(false, true);
     } catch (error) {
       // Values are refused with their problems. Any other fault of a provisional answer is left to the full one.
@@ -82,20 +81,20 @@ function createRuns(state, set, assess, fail) {
     }
   }
 
-  const askMoving = createLane(async () => isMoving && ask(true), GAP_MS);
-  const askMeanwhile = createLane(async () => isFull || isMoving || ask(true));
-  const askFull = createLane(async () => isMoving || ask(false, isFull));
+  const askMoving = createLane(async () => stage === "moving" && ask(true), GAP_MS);
+  const askMeanwhile = createLane(async () => stage === "settling" && ask(true));
+  const askFull = createLane(async () => stage === "moving" || ask(false, stage === "full"));
 
   function change(values, moves) {
     clearTimeout(timer);
     version += 1;
-    [isMoving, isFull] = [moves, false];
-    set({ values: present(values), phase: moves ? "moving" : "settling", turned: {}, ...former(state.answer) });
+    stage = moves ? "moving" : "settling";
+    set({ values: present(values), phase: stage, turned: {}, ...former(state.answer) });
   }
 
   function rest() {
     clearTimeout(timer);
-    isMoving = false;
+    if (stage === "moving") stage = "settling";
     set({ phase: "settling" });
     askFull();
     timer = setTimeout(askMeanwhile, SLOW_MS);
@@ -103,27 +102,28 @@ function createRuns(state, set, assess, fail) {
 
   return {
     rest,
-    again: () => isMoving || askFull(),
+    again: () => stage === "moving" || askFull(),
     release() {
-      if (isMoving) rest();
+      if (stage === "moving") rest();
       else if (isHeld && state.answer?.pending) askFull();
       isHeld = false;
     },
     through(values, isStep) {
-      const rests = isStep && isFull;
+      const rests = isStep && stage === "full";
       isHeld = !isStep;
       change(values, !rests);
       if (rests) rest();
       else askMoving();
-      if (isMoving) timer = setTimeout(rest, isHeld ? HOLD_MS : REST_MS);
+      if (stage === "moving") timer = setTimeout(rest, isHeld ? HOLD_MS : REST_MS);
     },
     // The values of the workbook have their answer; others are asked in full.
     at(all) {
       isHeld = false;
       change(all, false);
-      isFull = isAsTyped(state);
-      if (isFull) set(answered(state.project.answer, state.values));
-      else rest();
+      if (isAsTyped(state)) {
+        stage = "full";
+        set(answered(state.project.answer, state.values));
+      } else rest();
     },
   };
 }
