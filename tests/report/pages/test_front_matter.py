@@ -227,5 +227,5 @@ def test_the_schedule_of_gaps_is_rounded_up():
 def test_only_a_parapet_that_qualifies_is_relied_on(height_m):
     edge = projects.roof_object("N", "edge with parapet", 0, 400, 200, 202, height=height_m)
     page = notes(objects=[edge], clearances=[projects.clearance("A1", "N", 60.0)])
-    assert ("Parapets on which the clearances rely" in page) is (height_m == 1.2)
+    assert ("Parapets required by the clearances" in page) is (height_m == 1.2)
     assert ("Height of the parapets above the roof measured: N." in page) is (height_m == 1.2)
