@@ -1,5 +1,8 @@
 """What cross-slope shaking can change, bounded in one pass over the record, jitted.
 
+Samples of 0, 4, -4, 0 m/s2 at 0.1 s move a block with mu = 0.2 on a flat roof 4.9 mm. A hundredth
+of them across changes that by 0.001 mm; the bound is 2.8 mm, and falls in proportion to ay.
+
 Follows no motion (`one_axis` and `two_axes` do). Never raises, knows no units but SI; numpy and
 numba only. Letters as in `two_axes`, which
 `tests/solver/kernels/test_cross_slope_kernel.py` compares its bounds with.

@@ -1,5 +1,8 @@
 """Event sequences over the service life of a roof, jitted.
 
+Two events with a PRD of 0.4 m downslope and a residual of 0.3 m move an array up to 0.7 m from its
+installed position, and leave it at 0.6 m.
+
 Samples no events and runs no record; both are inputs. numpy and numba only. `in_numpy` in
 `tests/solver/studies/test_rates.py` is the same without the compiler.
 """

@@ -1,5 +1,9 @@
 """The exact one-axis solver, jitted: the linearly interpolated record, event by event.
 
+    ax = 0, 4, -4, 0, 0, 0 m/s2 at 0.1 s, flat roof, mu = 0.2
+    slip upslope at 0.0490 s, stop at 0.1696 s, s = -4.94 mm
+    slip downslope at 0.1745 s, stop at 0.3152 s, s = +1.63 mm
+
 Never raises, knows no units but SI; numpy and numba only. Read `slide_exact`;
 `solver.sliding.checked` explains the results. `docs/method.md` solves the block in a few lines of
 plain Python, and `tests/oracle.py` by other algebra to 40 digits.

@@ -1,5 +1,8 @@
 """Damped oscillators under a linearly interpolated record, jitted: spectra and building modes.
 
+A step of 1 m/s2 gives an oscillator of 5% damping a peak of 1 + exp(-zeta pi / sqrt(1 - zeta^2)) =
+1.854 m/s2, whatever its period.
+
 Never raises, knows no units but SI; numpy and numba only. `tests/modal_oracle.py` gives the same
 spectra by complex modes.
 """

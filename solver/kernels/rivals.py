@@ -1,5 +1,8 @@
 """The methods compared with the exact one, jitted: each as it is commonly used.
 
+The samples of `one_axis`, whose PRD is 4.94 mm, by the paper's method: 30.19 mm with one sub-step
+in each interval, 5.31 mm with 64; by linear acceleration 4.94 mm with 64.
+
 Never raises, knows no units but SI; numpy and numba only. Read `solver.rivals.methods` for a
 description of each, and `solver.kernels.one_axis` for the exact method.
 
@@ -16,9 +19,8 @@ Letters, beside those of `one_axis`, along the slope and per unit mass, positive
 Every kernel assumes N >= 0 throughout (`one_axis.minimum_normal`). It fills `history`, if of shape
 (2, n), with s and w at the samples; shape (2, 0) is not filled. It returns its code, the largest
 and the least s, s and w at the end, the time of the largest |s| and the number of stops. A block
-that has stopped sliding has w = 0 at the end.
-
-A block in two axes by fixed steps of constant acceleration, jitted: the straightforward method.
+that has stopped sliding has w = 0 at the end. `slide_fixed`, of two axes, says itself what
+it takes and returns.
 """
 
 from __future__ import annotations
@@ -143,6 +145,7 @@ def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
         r_drive, r_cap = (drive - drive_0) * share, (cap - cap_0) * share
         for j in range(substeps):
             drive_j, cap_j = drive_0 + j * r_drive, cap_0 + j * r_cap
+            # The paper's condition for stick: at rest, or reversed within the last sub-step.
             reversed_ = w * w_before < 0.0
             n_stops += reversed_
             if (w == 0.0 or reversed_) and abs(drive_j) <= cap_j:
@@ -212,6 +215,7 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
     # In equilibrium with gravity alone; what it cannot hold stays unbalanced in `a`.
     force = min(max(g * sn, -mu * g * cs), mu * g * cs)
     x, a = force / k, drive - min(max(force, -cap), cap)
+    # What may still be dissipated: ENERGY times the energy available, less what was dissipated.
     left = 0.5 * ENERGY * (a * a + cap * cap) / k
     s = w = s_max = s_min = t_peak = 0.0
     slip = n_stops = 0

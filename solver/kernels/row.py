@@ -1,5 +1,8 @@
 """Blocks in a row on a shaken roof, linked by springs and dashpots, jitted: series between events.
 
+    two equal blocks, mu = 0.1 and 0.3, flat roof, ax = 0, -6, 0, 0, 0, 0, 0 m/s2 at 0.1 s
+    PRD without a link 128 and 16 mm, with k = 100 / s2 52 and 37 mm, with k = 1e6 / s2 42 and 42 mm
+
 Never raises, knows no units but SI; numpy and numba only. Read `slide_row`, then `_first_below`;
 `solver.sliding.row` explains the results. `tests/solver/sliding/test_row.py` follows rows in plain
 Python, by SciPy's `solve_ivp`.

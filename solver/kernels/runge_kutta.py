@@ -2,9 +2,10 @@
 
 Dormand and Prince's of order 5 (RK45) and of order 8 (DOP853) with SciPy's coefficients, error
 norms and control of the step, restarted at every sample, onset of slip and stop. Never raises,
-knows no units but SI; numpy and numba only. Letters as in `solver.kernels.rivals`; the state y has
-the distances, then their rates, and k the rates of y at the stages of a step. In plain Python
-`solver.rivals.by_scipy` is the same, by SciPy itself.
+knows no units but SI; numpy and numba only. A step of either follows a cubic exactly, so that one
+axis, with a step from event to event, has rounding error alone. Letters as in
+`solver.kernels.rivals`; the state y has the distances, then their rates, and k the rates of y at
+the stages of a step. In plain Python `solver.rivals.by_scipy` is the same, by SciPy itself.
 """
 
 from __future__ import annotations
@@ -70,6 +71,7 @@ E8 = np.array(
      -0.022355307863886294)
 )  # fmt: skip
 E3 = B8.copy()
+# Less the weights of the step of order 3, bhh1 to bhh3 of the code DOP853.
 E3[[0, 8, 11]] -= 0.2440944881889764, 0.7338466882816118, 0.022058823529411766
 C8 = A8.sum(axis=1)
 
@@ -306,6 +308,8 @@ def _error(order, h, y, k, new, rtol, atol):
                 high += E5[j] * k[j, m]
         far, near = far + (high / allowed) ** 2, near + (low / allowed) ** 2
     if order == 8:
+        # 1/2 is 1 / sqrt(4): SciPy's norm is the root of the mean of the squares of four
+        # components.
         return 0.5 * h * far / math.sqrt(far + 0.01 * near) if far > 0.0 else 0.0
     return 0.5 * h * math.sqrt(far)
 
@@ -319,6 +323,7 @@ def slide_plane(rows, dt, cs, order, rtol):
     """
     y, new, k, p = np.zeros(4), np.zeros(4), np.empty((13, 4)), np.empty(6)
     atol = np.empty(4)
+    # -1 over the order of the error estimate and one: 7 and 4.
     last, exponent = (12, -0.125) if order == 8 else (6, -0.2)
     moving, prd, h = False, 0.0, dt
     for i in range(rows.shape[0] - 1):
@@ -339,6 +344,7 @@ def slide_plane(rows, dt, cs, order, rtol):
                 tried = min(h, dt - t)
                 _stepped(2, order, t, tried, y, p, k, new)
                 error = _error(order, tried, y, k, new, rtol, atol)
+                # SciPy's own limits of a change of the step, and its safety of 0.9.
                 factor = min(10.0, max(0.2, 0.9 * error**exponent)) if error > 0.0 else 10.0
                 h = factor * tried
                 if error > 1.0 and tried > NEAR * dt:

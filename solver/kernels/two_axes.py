@@ -1,5 +1,9 @@
 """A block that slides in two axes on a shaken roof, jitted: power series from event to event.
 
+    ax = 0, 4, -4, 0, 0, 0 m/s2 at 0.1 s, ay half of it, flat roof, mu = 0.2
+    slip at 0.0439 s, stop at 0.1767 s, (sx, sy) = (-6.60, -3.30) mm, where it slips again at once
+    stop at 0.3315 s, (sx, sy) = (2.16, 1.08) mm
+
 Never raises, knows no units but SI; numpy and numba only. Read `slide_plane`, then `_sliding` and
 `_creeping`; `solver.sliding.two_axes` explains the results. `tests/plane_oracle.py` follows the
 same block in plain Python, by SciPy's DOP853.
