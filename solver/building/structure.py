@@ -87,6 +87,7 @@ def story_modes(alpha0: float, stories: int) -> Modes:
         )
     # Equal floor masses: eigenvectors of K itself, of length 1, so Gamma = sum of phi.
     squares, shapes = np.linalg.eigh(floor_stiffness(alpha0, stories))
+    # An eigenvector may have either sign; in this product the sign cancels.
     factors = shapes.sum(axis=0) * shapes[-1]
     return Modes(period_ratios=np.sqrt(squares[0] / squares), factors=factors[:, None])
 
@@ -98,6 +99,7 @@ def floor_stiffness(alpha0: float, stories: int) -> Floats:
     It is the sum of the stiffness matrices of both beams.
     """
     x = np.arange(1, stories + 1) / stories
+    # GA / h of each story, with h = 1 / stories and GA = 1.
     shear = stories * (2.0 * np.eye(stories) - np.eye(stories, k=1) - np.eye(stories, k=-1))
     shear[-1, -1] = stories  # the roof has no story above
     if math.isinf(alpha0):
@@ -105,6 +107,7 @@ def floor_stiffness(alpha0: float, stories: int) -> Floats:
     near, far = np.minimum.outer(x, x), np.maximum.outer(x, x)
     # Inverse of the flexibility: x^2 (3 a - x) / 6 EI at x under a unit load at a >= x.
     bending = np.linalg.inv(near**2 * (3.0 * far - near) / 6.0)
+    # alpha0^2 = GA H^2 / EI, which is GA for EI = H = 1.
     return np.asarray(bending + alpha0**2 * shear)
 
 
@@ -242,6 +245,7 @@ def building_of_periods(
     modes = story_modes(alpha0, stories) if stories else beam_modes(alpha0, BEAM_MODES)
     ratios = modes.period_ratios
     lowest = np.array(periods_s[: ratios.size], dtype=np.float64)
+    # Higher modes keep the ratio of the beam to the last period given, not to the first.
     periods = np.append(lowest, lowest[-1] * ratios[lowest.size :] / ratios[lowest.size - 1])
     zeta = np.full(periods.size, float(damping[-1]))
     first = np.array(damping[: periods.size], dtype=np.float64)

@@ -1,5 +1,7 @@
 """The sliding block by SciPy's solvers, in one axis and in two: with events, and regularized.
 
+`slide(..., method="events-rk45")` runs `line`, `method="regularized"` runs `regularized`.
+
 Each as fast as SciPy allows: jitted right-hand sides (`solver.kernels.rivals`) and onsets, no
 step across a kink of the record, no step at rest. SciPy is imported where it runs. Shares nothing
 with the exact kernels: `plane` is the reference of two axes. Symbols as in
@@ -63,6 +65,7 @@ def line(drive: Floats, cap: Floats, dt: float, solver: str, history: Floats) ->
     what the kernels of `solver.kernels.rivals` do, with True in place of the code. Raises
     `InputError` if SciPy is not installed.
     """
+    # In the columns of two axes, so that the onset is found by the same function.
     rows = np.column_stack([drive, np.zeros_like(drive), cap])
     step, root = getattr(_scipy("integrate"), solver), _scipy("optimize").brentq
     s = w = 0.0

@@ -55,6 +55,7 @@ def grid(
 
 def cases_of(rows: Sequence[tuple[int, float, float, float]]) -> Cases:
     """Return cases from tuples of building, slope [rad], friction coefficient and intensity."""
+    # Four columns even of no rows.
     columns = np.array(rows, dtype=float).reshape(-1, 4).T
     return Cases(columns[0].astype(np.int64), *(column.copy() for column in columns[1:]))
 
@@ -88,7 +89,9 @@ class Campaign:
     def parts(self) -> tuple[slice, ...]:
         """Ranges of about as many cases; they depend on nothing but the campaign."""
         is_plane = any(motion.has_transverse for motion in self.motions[0])
+        # Rounded up.
         count = -(-self.rows // (PLANE_PART_ROWS if is_plane else PART_ROWS))
         count = min(max(count, LEAST_PARTS), MOST_PARTS, len(self.cases))
+        # Whole cases: a part has all runs of each.
         edges = [len(self.cases) * number // count for number in range(count + 1)]
         return tuple(slice(*ends) for ends in pairwise(edges))

@@ -3,9 +3,8 @@
 Peaks of 0.1, 0.2 and 0.3 m have a mean of 0.2 m, and a design curve of 0.22 m at 1.1 times it.
 
 A PRD that is NaN is a run without a value (uplift, or sliding at the end of the record): it is
-treated as larger than any limit and is never omitted. Runs nothing. Read `statistics` first.
-
-A closed formula fitted to a displacement of a study, with its error and its domain.
+treated as larger than any limit and is never omitted. `fit_prd` fits a closed formula to the PRD of
+a study, with its error and its domain. Runs nothing. Read `statistics` first.
 """
 
 from __future__ import annotations
@@ -69,6 +68,7 @@ def first_allowed(values: Floats, prd_m: Floats, allowed_m: float) -> float:
     last = int(beyond[-1])
     if last + 1 == values.size:
         return math.nan
+    # Between a run without a value and the next nothing can be interpolated.
     if math.isnan(prd_m[last]):
         return float(values[last + 1])
     part = (prd_m[last] - allowed_m) / (prd_m[last] - prd_m[last + 1])
@@ -117,6 +117,7 @@ class Fit:
         )
 
     def _r(self, slope_rad: float, mu: float, intensity: float) -> float:
+        # Yield acceleration downslope, g tan(phi - theta), over the peak acceleration.
         return math.tan(math.atan(mu) - slope_rad) / (self.ppa_g * intensity)
 
 
@@ -143,6 +144,7 @@ def fit_prd(
     ppa_g = _to_digits(ppa_g)
     with np.errstate(divide="ignore"):
         r = np.tan(np.arctan(mu) - slope_rad) / (ppa_g * intensity)
+    # NaN, a run without a value, fails the comparison.
     fits = (prd_m >= LEAST_PRD_M) & (r > 0.0) & (r <= LARGEST_R)
     cases = int(fits.sum())
     if cases < 2 * TERMS:

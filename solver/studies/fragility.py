@@ -206,6 +206,7 @@ def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple
             return float(deviance(y, flags, mean + distance, observed)[0]) - bound
 
         near, far = 0.0, step
+        # Doubled until the ends bracket the root, for `brentq`.
         while over(far) <= 0.0:
             near, far = far, 2.0 * far
         return math.exp(mean + brentq(over, near, far))
@@ -226,6 +227,8 @@ def lilliefors(values: Floats) -> Floats:
     off = np.sort(values, axis=-1) - values.mean(axis=-1, keepdims=True)
     below = ndtr(off / values.std(axis=-1, ddof=1, keepdims=True))
     steps = np.arange(n) / n
+    # The distribution of the values steps up by 1 / n at each: both sides of each step are
+    # compared.
     return np.asarray(np.maximum(below - steps, steps + 1.0 / n - below).max(axis=-1))
 
 
@@ -245,6 +248,7 @@ def lilliefors_critical(motions: int) -> float:
 @lru_cache(maxsize=8)
 def _drawn_distances(motions: int) -> Floats:
     """Return the distances of normal samples, increasing."""
+    # One seed for all: equal capacities have one p-value, whatever the seed of their study.
     drawn = np.random.default_rng(1967).standard_normal((LILLIEFORS_REPEATS, motions))
     return np.sort(lilliefors(drawn))
 
@@ -265,6 +269,7 @@ class Normals:
 
 def inverse_mills(z: Floats) -> Floats:
     """Return phi(z) / Phi(z)."""
+    # By the scaled error function: phi and Phi underflow far below the mean, their ratio does not.
     return np.asarray(math.sqrt(2.0 / math.pi) / erfcx(-z * math.sqrt(0.5)))
 
 

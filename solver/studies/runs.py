@@ -1,5 +1,7 @@
 """Runs a batch of a study; each row is bit-identical to `solver.solve` with `SETTINGS`.
 
+A motion of one component in two polarities fills two columns of `Rows`, a row for each case.
+
 Motions of one horizontal component are run many cases at a time, with what the choice of the model
 needs from a record computed once; others by `solver.sliding.model_selection`. Read `run_part`.
 """

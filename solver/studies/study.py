@@ -83,6 +83,8 @@ class StudyRuns:
         NaN where a run of the motion has no final value.
         """
         final = np.where(self.status == STATUSES.index(Status.OK), self.lengths[0], np.nan)
+        # A run without a value is NaN, which the largest of the orientations of its motion then is,
+        # too.
         ends = np.cumsum([len(motion.orientations) for motion in self.motions])
         return np.stack([run.max(axis=-1) for run in np.split(final, ends[:-1], axis=-1)], axis=-1)
 
@@ -112,6 +114,7 @@ class StudyRuns:
         """
         from solver.studies.fragility import fragility  # with SciPy, which is optional
 
+        # The intensity is of no account: a track is a motion at intensity 1.
         tracks = iter(Runner(_campaign(self.motions, (slope_rad,), (mu,), (1.0,))).tracks[0])
         by_motion = [
             Curve(tracks=[next(tracks) for _ in motion.orientations], slope_rad=slope_rad, mu=mu)
@@ -120,6 +123,7 @@ class StudyRuns:
         prd_m = np.array([curve.prd_m(self.intensities) for curve in by_motion])
         (searched,) = capacities(by_motion, [limit_m], self.intensities, is_censoring=False)
         counted = np.ones(prd_m.shape, dtype=bool)
+        # Not >: NaN exceeds every limit.
         return fragility(self.intensities, ~(prd_m <= limit_m), counted, searched, seed=seed)
 
     def to_frame(self) -> pd.DataFrame:
