@@ -1,5 +1,7 @@
 """Checks of the computed roof motion: oscillators, modes, a whole building, identification.
 
+The roof of a shear building of one story has a factor of 1 in its first mode, of two stories 1.171.
+
 Returns the same rows as `checks`; expected values come from closed forms, from finite elements and
 from direct integration of all floors of a building. Read `building_checks`.
 """
@@ -77,6 +79,7 @@ def _stepped(a: Floats, dt: float) -> Floats:
     squares, shapes = np.linalg.eigh(stiff)
     squares *= (2.0 * math.pi / PERIOD_S) ** 2 / squares[0]
     stiff = (shapes * squares) @ shapes.T
+    # The same ratio in every mode: Rayleigh damping would have it at two periods alone.
     damp = (shapes * (2.0 * DAMPING * np.sqrt(squares))) @ shapes.T
     n = 2 * STORIES
     rate = np.zeros((n + 2, n + 2))
@@ -131,8 +134,10 @@ def _steady_waves() -> Iterator[Verified]:
         roof = roof_motion(wave, dt, building)[: wave.size]
         damped = (2.0 * zeta * ratio) ** 2
         expected = math.sqrt((1.0 + damped) / ((1.0 - ratio**2) ** 2 + damped))
+        # The last second: after 19 s the transient is below 1e-10 of its beginning.
         amplitude = float(np.abs(roof[-round(1.0 / dt) :]).max())
         name = f"Harmonic, frequency ratio {equation('r', ratio)}"
+        # Straight lines of 0.001 s take 5e-5 off a sine of 4 Hz, the highest here.
         yield Verified("RM-2", source, "Roof / ground", "1", name, expected, amplitude, 1e-4)
 
 
@@ -195,11 +200,13 @@ def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[
         stiff[part, part] += (bending + alpha0**2 * shear / (30.0 * size)) * turned
         heavy[part, part] += mass * turned
     rigid = (heavy @ np.tile([1.0, 0.0], count + 1))[2:]
+    # The base is clamped: neither deflection nor slope there.
     stiff, heavy = stiff[2:, 2:], heavy[2:, 2:]
     # With the root of the mass the problem of two matrices is one of a symmetric matrix.
     root = np.linalg.inv(np.linalg.cholesky(heavy))
     squares, shapes = np.linalg.eigh(root @ stiff @ root.T)
     shapes = root.T @ shapes
+    # The last but one is the deflection of the top, the last its slope.
     return np.sqrt(squares / squares[0]).tolist(), (rigid @ shapes * shapes[-2]).tolist()
 
 
@@ -210,6 +217,7 @@ def _sums() -> Iterator[Verified]:
         (6.0, ", stiffness ratio 6"),
         (math.inf, " in shear"),
     ):
+        # Roof factors alternate in sign, and their sums about the limit: the mean of two is nearer.
         sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
         total, name = float(0.5 * (sums[-1] + sums[-2])), f"Cantilever{kind}, all modes"
         yield Verified("RM-6", source, "Sum of roof factors", "1", name, 1.0, total, 1e-4)
@@ -239,6 +247,7 @@ def _whole_building(made: FloorRecords) -> Verified:
 def _identified(comparison: RoofComparison) -> Iterator[Verified]:
     best, name = comparison.predictions[0], "Model building, fitted"
     source = "Properties of the model building, as a beam half a story taller; fitted to two floors"
+    # alpha0 = H sqrt(GA / EI) of a beam that is half a story taller.
     ratio = ALPHA0 * (1.0 + 0.5 / STORIES)
     for quantity, unit, expected, computed, tolerance in (
         ("First period", "s", PERIOD_S, best.period_s, 0.005),

@@ -1,5 +1,8 @@
 """Checks of design inputs other than the displacement: code rules, spectra, uplift, tipping.
 
+By PV1-2012 with S_DS = 1.0 g the displacement is 60 in x 0.6^2 = 21.6 in, and the separation from
+an edge without a parapet, with I_e = 1.25, 40.5 in.
+
 Returns the same rows as `checks`; expected values are from a published permit calculation, or
 computed here by hand.
 """
@@ -98,6 +101,7 @@ def _permit_sheet() -> Iterator[Verified]:
     ):
         found_m = required_separation(rules, kind, design_m=delta_m, importance=1.0)
         name, found_ft = f"Separation from a neighbor, ASCE 7-16: {kind}", found_m / _FOOT
+        # Half the last digit that the sheet prints.
         yield Verified("DV-8", _SHEET, "Separation", "ft", name, feet, found_ft, 0.005 / feet)
     for s_ds_g, factor in ((1.5, 0.133 * 1.5), (0.5, 0.1)):
         found_lb = interconnection_strength_n(rules, s_ds_g=s_ds_g, w1_n=1000.0)
@@ -142,6 +146,7 @@ def _spectrum() -> Iterator[Verified]:
     source = "1 + exp(−ζ π / √(1 − ζ²)); sampled at 0.001 s"
     expected = 1.0 + math.exp(-zeta * math.pi / math.sqrt(1.0 - zeta**2))
     for period_s in (0.1, 1.0):
+        # The peak is at half a period; three leave no doubt.
         spectrum = response_spectrum(np.ones(round(3.0 * period_s / dt)), dt, [period_s])
         name = f"Unit step, {equation('T', period_s, 's')}, {equation('ζ', zeta)}"
         yield Verified("DV-6", source, "S_a / a", "1", name, expected, float(spectrum[0]), 1e-5)

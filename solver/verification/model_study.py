@@ -1,5 +1,7 @@
 """Comparison of models: the same scenes by every model; a block driven back at rest.
 
+A row whose links stretch by 1 mm under the weight of a block has k / m = g / 1 mm = 9,807 / s2.
+
 Read `model_evidence`; the other functions compute its parts.
 """
 
@@ -62,6 +64,7 @@ FALLING = replace(JUMPING, mu_slow=JUMPING.mu_static, rate_s_per_m=100.0)
 def pushed_scene(across_mps2: float, friction: Friction) -> Scene:
     """Return a sliding block driven back by `PUSHED_BACK_G`, with a transverse acceleration."""
     back = np.full(201, PUSHED_BACK_G * STANDARD_GRAVITY_MPS2)
+    # A push downslope of 0.05 s sets it sliding.
     back[0], back[1:6] = 0.0, -9.0
     return flat_scene(back, np.full(201, -across_mps2), 0.01, friction)
 
@@ -199,6 +202,7 @@ def row_of(mu: float, stretch_m: float, g_mps2: float) -> BlockRow:
     return BlockRow(
         mus=tuple(mu * share for share in ROW_SHARES),
         stiffness_per_s2=stiffness,
+        # c / m = 2 zeta sqrt(k / m), of one block alone on one link.
         damping_per_s=2.0 * ROW_DAMPING * math.sqrt(stiffness),
     )
 

@@ -1,5 +1,7 @@
 """The studies of the paper on any record: Figs. 5 to 12.
 
+60 scenarios with 1 to 256 sub-steps are the 540 runs of Fig. 5; Figs. 10 to 12 take 6,960.
+
 Runs only; values read from the curves are in `evidence`. Source: "Predicted Slip of Ballasted Solar
 Arrays on Angled Roofs due to Seismic Motion".
 """
@@ -36,6 +38,7 @@ LINK_MUS = {
 }
 """Friction coefficients of Figs. 7 and 9, by slope [deg]."""
 
+# Of both signs 29 slopes, with 15 coefficients and 16 peak accelerations: the paper's 6,960 runs.
 SLOPES_DEG = np.arange(0.0, 7.25, 0.5)
 MUS = np.linspace(0.1, 0.8, 15)
 PPAS_G = np.linspace(0.0, 1.5, 16)
@@ -82,6 +85,7 @@ def convergence(record: Record) -> pd.DataFrame:
 def link_comparison(record: Record, slope_deg: float) -> LinkComparison:
     """Compare the exact method with the paper's link (Figs. 6 to 9)."""
     cases = grid([slope_deg], LINK_MUS[slope_deg], [LINK_PPA_G])
+    # Less a rounding of the quotient, which may be just above a whole number.
     substeps = math.ceil(record.dt_s / LINK_STEP_S - 1e-9)
     link = {"stiffness_per_m": LINK_PER_M, "substeps": substeps}
     runs_m = pd.DataFrame(index=LINK_MUS[slope_deg])

@@ -1,5 +1,7 @@
 """Maps of error over two parameters, where methods diverge, stall or lose accuracy.
 
+A link of 1e5 / m is unstable for sub-steps above 2 / sqrt(g k) = 2.02 ms: a line in its map.
+
 Runs only. A failed run is a failed cell and is never omitted. See `solver.rivals.methods` for the
 limits.
 """
@@ -147,5 +149,6 @@ def _errors(record: Record, name: str, cells: Sequence[Sequence[_Cell]]) -> Floa
 
 def _largest_error(record: Record, name: str, cell: _Cell) -> float:
     prd_m = [run(record, case, name, **parameters).prd_m for case, parameters in cell]
+    # NaN, a failed run, is the largest error of its cell: `max` of NumPy returns it.
     exact_m = [run(record, case).prd_m for case, _ in cell]
     return float(percent_off(np.array(prd_m), np.array(exact_m)).max())

@@ -70,6 +70,7 @@ CASES = (
 def runnable_methods() -> list[Method]:
     """Return the methods, without those of SciPy where it is not installed."""
     scipy = by_scipy.is_installed()
+    # The source of a method that runs by SciPy begins with the name of its function.
     return [m for m in METHODS.values() if scipy or not m.source.startswith("scipy")]
 
 
@@ -218,6 +219,7 @@ def processor_seconds(work: Callable[[], object]) -> float:
     """
     _, once_s = clocked(work, CLOCK)
     # A short run many times: reading the clock takes about as long as one.
+    # The microsecond is for a clock that has not moved in between.
     count = 1 + int(BATCH_S / (once_s + 1e-6))
 
     def batch() -> None:

@@ -4,7 +4,8 @@ Times are of the processor, warm, the least of several repeats, after the input 
 with the record prepared, as one of many runs of it, and `SINGLE` with what the method prepares. See
 `solver.rivals.methods` for the methods and their settings.
 
-Two axes: the same against the tightest tolerance.
+One axis is compared with the exact method (`work_points`), two axes with themselves at the tightest
+tolerance (`work`).
 """
 
 from __future__ import annotations
@@ -117,6 +118,7 @@ def _measured(
 def times_longer(runs: pd.DataFrame, ours: pd.DataFrame, error: str, time: str = TIME) -> float:
     """Return the least time of runs as accurate as ours, over that of ours: median of the cases."""
     both = runs.merge(ours, on=RUN, suffixes=("", " of ours"))
+    # An error of ours that is zero by chance would leave no rival as accurate.
     near = both[both[error] <= both[f"{error} of ours"].clip(ROUNDING_PERCENT)]
     ratios = near[time] / near[f"{time} of ours"]
     return float(ratios.groupby([near[name] for name in RUN]).min().median())
