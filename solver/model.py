@@ -128,6 +128,7 @@ class SlideResult:
         return isinstance(other, SlideResult) and self._values == other._values
 
     def __hash__(self) -> int:
+        # By the same values as equality: a NaN has a hash by its identity.
         return hash(self._values)
 
     @property
@@ -392,6 +393,7 @@ class Motion(Accelerations):
 
     def scene(self, orientation: Orientation, *, slope_rad: float, friction: Friction) -> Scene:
         """Return the scene of one run: this motion in an orientation, on a slope with friction."""
+        # The cross-slope component keeps its sign: reversed it would mirror the motion.
         components, along_index = (self.ax_mps2, self.ay_mps2), int(orientation.is_transverse)
         along = (components if orientation.polarity > 0 else self._reversed)[along_index]
         return Scene(

@@ -1,4 +1,7 @@
-"""Suggestions for names that do not exist."""
+"""Suggestions for names that do not exist.
+
+`nearest("A-01", ["A1", "B1"])` is `A1`, and `nearest("RTU-9", ["RTU-1", "RTU-2"])` is empty.
+"""
 
 from __future__ import annotations
 

@@ -207,6 +207,7 @@ def _shaped(layout: Layout) -> Floats | None:
 def _across(layout: Layout, due: int) -> Floats:
     """Return values across the lines, as many in each but the last: one column, or pairs."""
     source = layout.source
+    # Programs that write lists may end a line with the separator.
     rows = [(i, layout.fields(row.rstrip(",;"))) for i, row in layout.rows()]
     raise_any(
         f"{source.at(index)}: found {len(fields)} values; enter {due} as in every line but the last"
@@ -390,6 +391,8 @@ def _check_is_time(layout: Layout, table: Floats) -> None:
         return
     # Not the first fall: times that stand twice or out of order are told as times.
     falling = int((np.diff(times) <= 0.0).sum())
+    # Shaking falls at about every second step, times with faults at few: a quarter tells them
+    # apart.
     if 4 * falling > len(times) and 0 not in rising(table):
         raise InputError(
             f"{source.name}: found {table.shape[1]} columns without a heading, and the first is no"

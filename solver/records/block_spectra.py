@@ -1,5 +1,8 @@
 """Response spectra of all records with one time step at once, by matrix products.
 
+Samples of 0, 4, -4, 0 m/s2 at 0.1 s have ordinates of 3.04 and 1.17 m/s2 at periods of 0.5 and 1 s,
+as by `response_spectrum`, to 1e-12.
+
 `solver.records.spectrum` is of one record, by a compiled kernel. What only compares spectra with a
 target does not load the compiler, which takes longer than these. Read `together`.
 """

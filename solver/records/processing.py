@@ -219,6 +219,7 @@ def _resampled(a: Floats, dt_s: float, new_s: float) -> Floats:
         finer = _finer(ratio)
         a, ratio = _without_aliases(a, ratio, finer), ratio * finer
     if _is_whole(ratio):
+        # Samples that are there already are taken, not interpolated.
         return a[:: round(ratio)][:count]
     # With a step that divides the old one, common samples stay the same to the last bit.
     parts = 1.0 / ratio

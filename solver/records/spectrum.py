@@ -133,6 +133,7 @@ def response_spectrum(
     a, periods = read_only(a_mps2), np.asarray(periods_s, dtype=np.float64)
     _check_spectrum(a, dt_s, periods, damping)
     with np.errstate(divide="ignore", over="ignore"):
+        # A period of 0 is an infinite frequency: the oscillator is rigid.
         omega = 2.0 * math.pi / periods
     rigid = ~np.isfinite(omega)
     # A rigid oscillator follows the record: its ordinate is the peak acceleration.

@@ -210,6 +210,7 @@ def required_separation(
 
 def minimum_separation_m(rules: RuleSet, neighbor: Neighbor) -> float:
     """Return the minimum separation [m] of a rule set for any displacement; 0 if it has none."""
+    # 48 in of ASCE 7; PV1-2012 states none.
     return rules.length_m("separation_edge_min_in") if neighbor is Neighbor.EDGE else 0.0
 
 
@@ -219,6 +220,7 @@ def parapet_qualifies(rules: RuleSet, *, parapet_height_m: float, cg_height_m: f
     Its strength (0.2 S_DS W impact in ASCE 7) is not checked here.
     """
     # A height typed in one unit equals the limit in another but for rounding.
+    # PV1-2012: 24 in above the roof and 6 in above the center of gravity; ASCE 7: 12 in.
     return at_least(parapet_height_m, rules.length_m("parapet_height_in")) and at_least(
         parapet_height_m - cg_height_m, rules.length_m("parapet_over_cg_in")
     )
