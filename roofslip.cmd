@@ -9,6 +9,7 @@ set "python=%here%\.venv\Scripts\python.exe"
 rem Python would read the name of a folder with accents from .venv in another code page, and keeps what
 rem it compiles when it first imports a module. Matrices are small: more threads are slower.
 set "PYTHONPATH=%here%"
+set "PYTHONHOME="
 set "PYTHONDONTWRITEBYTECODE="
 set "PYTHONUTF8=1"
 set "OPENBLAS_NUM_THREADS=1"
