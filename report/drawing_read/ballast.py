@@ -75,12 +75,20 @@ def read_map(path: Path, unit_m: float) -> Any:
         if name in ("x", "y") and unit and LENGTHS.get(unit_named(unit)) != unit_m:
             text = f"line 1: the heading is '{cut(heading)}'"
             raise InputError(f"{text}, but --units states another unit; enter the unit of x and y")
+        if name == "blocks" and unit:
+            text = f"line 1: the heading is '{cut(heading)}'"
+            raise InputError(f"{text}; enter the number of blocks below blocks")
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
         raise InputError(f"line 1: not one heading {', '.join(missing)}; enter x, y and blocks")
     if len(rows) > MAX_ROWS:
         raise InputError(f"{len(rows):,} lines, more than {MAX_ROWS:,}; combine neighboring blocks")
     rows_read, wrong = [], []
     for line, row in rows[1:]:
+        # A decimal comma makes two values of one, and a column without a heading moves the others.
+        if any(map(str.strip, row[len(heads) :])):
+            remedy = "enter a heading for each column, and decimal points or semicolons"
+            wrong.append(f"line {line}: {len(row)} values, {len(heads)} headings; {remedy}")
+            continue
         cells = [row[k].strip() if k < len(row) else "" for k in map(heads.index, COLUMNS)]
         x, y, blocks = (number_in(with_point(text, mark)) for text in cells)
         for name, text, value in zip(COLUMNS, cells, (x, y, blocks), strict=True):

@@ -50,10 +50,13 @@ for _kind, (_names, _) in _KINDS.items():
     _NAMES |= dict.fromkeys(_names, _kind)
 _HEADING = re.compile(r"([a-z]+)\s*(?:_|\[|\()?\s*([^\s\])]*)\s*[\])]?")
 _DAMPING = re.compile(
-    r"damp[a-z_]{0,20}\W{0,3}(?:ratio\W{0,3})?(\d++(?:\.\d++)?+) ?%"
-    r"|(?<!\d)(\d++(?:\.\d++)?+) ?%[\w -]{0,20}damp",
+    r"(?:damp[a-z_]{0,20}|\b(?:zeta|xi)\b|[ζξ])\W{0,3}(?:ratio\W{0,3}|(?:at|of|is)\b\W?)?"
+    r"(\d++(?:\.\d++)?+|\.\d++)(?! ?(?:hz|sec|s)\b)"
+    r"|(?<![\d.])(\d++(?:\.\d++)?+|\.\d++) ?(?:%|percent|pct)[\w -]{0,20}damp",
     re.ASCII | re.IGNORECASE,
 )
+# Of ordinates in g below a heading without a unit: more than any code asks for.
+_UNSAID_G = 5.0
 _WANTED = "frequency [Hz] or period [s], horizontal [g] and, optionally, vertical [g]"
 # Allows for band limits given as rounded periods, such as 3.33 s.
 _ROUNDED = 0.01
@@ -167,6 +170,17 @@ def _table(source: str, rows: _Rows) -> TargetTable:
         kind: np.array([_value(row, column, kind, problems) for row in below])
         for kind, column in columns.items()
     }
+    for row in below:
+        # A decimal comma between commas makes two values of one.
+        if not all(cell.is_blank for cell in row[len(rows[top]) :]):
+            text = f"has {len(row)} values below {len(rows[top])} headings"
+            remedy = "enter decimal points, or semicolons between the columns"
+            problems.append(Problem(text, remedy, row[0].address))
+    for kind in columns.keys() & {_HORIZONTAL, _VERTICAL}:
+        cell = rows[top][columns[kind]]
+        if not _heading(cell)[1] and (largest := values[kind].max(initial=0.0)) > _UNSAID_G:
+            text = f"is '{cell.shown.strip()}', above values up to {largest:g}"
+            problems.append(Problem(text, f"enter {kind} [g], and the values in g", cell.address))
     if not problems:
         problems = list(_range_problems(source, _frequencies(values)))
     if problems:
@@ -210,7 +224,8 @@ def _columns(
             remedy = "use accelerations in g, or delete the line if it is not part of the table"
             problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", remedy, cell.address))
         damping = _DAMPING.search(cell.shown)
-        if damping and float(damping[1] or damping[2]) != 5.0:
+        ratio = float(damping[1] or damping[2]) if damping else 0.05
+        if abs(ratio - (0.05 if ratio < 1.0 else 5.0)) > 1e-6:
             remedy = "use the spectrum at 5% damping, or delete a line that is not of the columns"
             problems.append(Problem(f"says '{cell.shown.strip()[:60]}'", remedy, cell.address))
     for column, (cell, (kind, unit)) in enumerate(zip(row, headings, strict=True)):

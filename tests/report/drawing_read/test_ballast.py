@@ -32,6 +32,12 @@ pytestmark = pytest.mark.quick
         ]),
         ("x [m],y [ft],blocks\n", ["line 1: the heading is 'y [ft]', but --units states another"
                                    " unit; enter the unit of x and y"]),
+        ("x,y,blocks [lb]\n1,2,64\n", ["line 1: the heading is 'blocks [lb]'; enter the number of"
+                                      " blocks below blocks"]),
+        ("x,y,blocks\n22,5,18,2\n1,2,3,\n", [
+            "line 2: 4 values, 3 headings; enter a heading for each column, and decimal points or"
+            " semicolons"
+        ]),
         (b"x,y,blocks\n\xff\n", ["not a CSV file in UTF-8 or UTF-16; save it as one"]),
         ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; combine "
                                                "neighboring blocks"]),

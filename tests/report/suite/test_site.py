@@ -324,6 +324,10 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
         ("# damping: 2%\nperiod,sa", "target.csv:1: says '# damping: 2%'; use the spectrum at 5%"),
         ("2%-damped\nperiod,sa", "target.csv:1: says '2%-damped'; use the spectrum at 5% damping"),
         ("10 % of critical damping\nperiod,sa", "target.csv:1: says '10 % of critical damping'; u"),
+        ("zeta = 0.02\nperiod,sa", "target.csv:1: says 'zeta = 0.02'; use the spectrum at 5% dam"),
+        ("Damping: .1\nperiod,sa", "target.csv:1: says 'Damping: .1'; use the spectrum at 5% dam"),
+        ("2 percent of critical damping\nperiod,sa", "target.csv:1: says '2 percent of critical"),
+        ("period,sa", "target.csv:2: has 3 values below 2 headings; enter decimal points, or semi"),
         ("# Units: mg\nperiod,sa", "target.csv:1: says '# Units: mg'; use accelerations in g"),
         ("Velocity (cm/s)\nperiod,sa", "target.csv:1: says 'Velocity (cm/s)'; use accelerat"),
         ("a,b", "target.csv: no row of headings in the first 10 rows; enter frequency [Hz]"),
@@ -332,6 +336,28 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
 def test_ambiguous_headings_are_rejected(tmp_path, heading, expected):
     reported = problems(text(tmp_path, heading + "\n0.01,1,1\n5,1,1\n"))
     assert any(expected in problem for problem in reported)
+
+
+def test_values_in_another_unit_below_a_heading_without_a_unit_are_rejected(tmp_path):
+    body = "0.01,{0},{0}\n5,1,1\n"
+    for high, told in (("4.9", []), ("11.8", ["'Horizontal'", "'vertical'"])):
+        content = "Period,Horizontal,vertical\n" + body.format(high)
+        if not told:
+            assert read_target(text(tmp_path, content)).horizontal_g.max() == 4.9
+            continue
+        assert sorted(problems(text(tmp_path, content))) == [
+            f"target.csv:1: is {name}, above values up to 11.8; enter {name.strip(chr(39)).lower()}"
+            " [g], and the values in g"
+            for name in told
+        ]
+    content = "Period,Horizontal [g]\n" + "0.01,11.8\n5,1\n"
+    assert read_target(text(tmp_path, content)).horizontal_g.max() == 11.8
+
+
+@pytest.mark.parametrize("damping", ["damping 5", "ξ = 0.05", "Damping = 5 pct", "damped 0.2 s"])
+def test_a_line_that_states_5_percent_damping_is_accepted(tmp_path, damping):
+    content = f"{damping}\nperiod,sa\n0.01,1\n5,1\n"
+    assert read_target(text(tmp_path, content)).horizontal_g.tolist() == [1.0, 1.0]
 
 
 @pytest.mark.parametrize(
