@@ -47,6 +47,15 @@ Reference = Mapping[str, Mapping[str, Mapping[str, float]]]
 """PRDs [m] by array, motion and orientation, of the last complete answer: data for JSON."""
 
 
+@dataclass(eq=False)
+class SharedRuns:
+    """What projects with the same motions share: it does not follow from their other values."""
+
+    acceptance: Acceptance | None = None  # of the motions, once it is known
+    moving: Runs | None = None  # of the last move, of arrays with these keys
+    scenes: frozenset[Hashable] = frozenset()
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class OpenProject:
     """A workbook at values of its controls, its motions, and the runs of its arrays.
@@ -64,13 +73,9 @@ class OpenProject:
     shaking: Shaking
     runs: Runs
     typed: Mapping[Place, Typed] = field(default_factory=dict)
-    first: OpenProject | None = None  # whose motions these are, if they are not its own
+    shared: SharedRuns = field(default_factory=SharedRuns)
     _others: dict[frozenset[tuple[Place, Typed]], OpenProject] = field(default_factory=dict)
     _done: dict[Extent, Assessment] = field(default_factory=dict)
-    # of the motions, once it is known: friction, slope and clearances do not change it
-    _acceptance: list[Acceptance] = field(default_factory=list)
-    # of the last move, under these motions
-    _passing: list[tuple[frozenset[Hashable], Runs]] = field(default_factory=list)
 
     @property
     def id(self) -> str:
@@ -110,10 +115,14 @@ class OpenProject:
         sheet.refuse(())
         known = (self, *self._others.values())
         alike = [other for other in known if _has_same_motions(other.sheet, sheet)]
+        if not alike:
+            motions = shaking(sheet, self.by_motion)
+            return OpenProject(
+                sheet=sheet, by_motion=self.by_motion, shaking=motions, runs=Runs(), typed=cells
+            )
         # Records that stay as they are need not be processed again.
-        first = (alike[0].first or alike[0]) if alike else None
-        if first:
-            sheet.refuse(stiff_links(sheet.project, first.shaking.motions))
+        first = alike[0]
+        sheet.refuse(stiff_links(sheet.project, first.shaking.motions))
         # Of clearances that differ, all runs; of friction or slope, those that are there.
         keys = set(map(scene_key, sheet.project.arrays))
         of_arrays = (o for o in alike if set(map(scene_key, o.sheet.project.arrays)) == keys)
@@ -121,10 +130,10 @@ class OpenProject:
         return OpenProject(
             sheet=sheet,
             by_motion=self.by_motion,
-            shaking=first.shaking if first else shaking(sheet, self.by_motion),
-            runs=runs or (first.runs.copy() if first else Runs()),
+            shaking=first.shaking,
+            runs=runs or first.runs.copy(),
             typed=cells,
-            first=first,
+            shared=first.shared,
         )
 
     def assessed(self, extent: Extent = Extent.WHOLE) -> Assessment:
@@ -136,11 +145,12 @@ class OpenProject:
     def moving(self, reference: Reference) -> Assessment:
         """Return a provisional assessment, from the orientations that may govern."""
         scenes = frozenset(map(scene_key, self.sheet.project.arrays))
-        kept = (self.first or self)._passing
+        former = self.shared.moving
         # Where clearances move, or units, all runs are there: 0.1 s of the example.
-        if not kept or kept[0][0] != scenes:
-            kept[:] = [(scenes, kept[0][1].copy(scenes) if kept else Runs(PASSING))]
-        return self.of_governing(reference, kept[0][1])
+        if former is None or self.shared.scenes != scenes:
+            self.shared.moving = former.copy(scenes) if former else Runs(PASSING)
+            self.shared.scenes = scenes
+        return self.of_governing(reference, self.shared.moving)
 
     def of_governing(self, reference: Reference, runs: Runs | None = None) -> Assessment:
         """Return the same from its own runs: none is larger than in the full assessment."""
@@ -163,10 +173,9 @@ class OpenProject:
         return self._assessed(runs.knowing(known), Extent.ALONE)
 
     def _assessed(self, runs: Runs, extent: Extent) -> Assessment:
-        known = (self.first or self)._acceptance
-        acceptance = known[0] if known else None
-        done = assess(self.sheet, self.shaking, runs, acceptance=acceptance, extent=extent)
-        known[:] = [done.acceptance]
+        known = self.shared.acceptance
+        done = assess(self.sheet, self.shaking, runs, acceptance=known, extent=extent)
+        self.shared.acceptance = done.acceptance
         return done
 
 

@@ -28,7 +28,7 @@ def test_clearances_share_motions_and_runs_friction_the_motions_and_intensity_no
     assert stronger.runs not in (given.runs, slippery.runs)
     wide = given.at({"intensity": 1.1, "clearance": 6.0})
     assert (wide.shaking, wide.runs) == (stronger.shaking, stronger.runs)
-    assert wide.first is stronger
+    assert wide.shared is stronger.shared
 
 
 def test_the_last_values_are_kept_and_those_before_them_are_not(given):
