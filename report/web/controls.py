@@ -69,15 +69,15 @@ def check(opened: OpenProject, values: Values) -> None:
         if slider and (not has_target or target in slider["real"]["targets"]):
             span = slider["least"], slider["greatest"]
             if not _is_number(value) or not span[0] <= float(value) <= span[1]:
-                of = f" of {target}" * bool(has_target)
-                wanted = f"enter a number from {span[0]:g} to {span[1]:g}"
+                place = f" of {target}" * bool(has_target)
+                accepted = f"enter a number from {span[0]:g} to {span[1]:g}"
                 why = "".join(f" ({text})" for text in slider["stops"].values())
-                wrong.append(f"{slider['label']}{of} is {cut(str(value))}; {wanted}{why}")
+                wrong.append(f"{slider['label']}{place} is {cut(str(value))}; {accepted}{why}")
         elif name not in choices:
             wrong.append(f"{cut(name)}: the workbook has no such slider; leave it out")
-        elif value not in (options := [each["value"] for each in choices[name]["options"]]):
-            wanted = f"choose {' or '.join(options)}"
-            wrong.append(f"{choices[name]['label']} is {cut(str(value))}; {wanted}")
+        elif value not in (options := [option["value"] for option in choices[name]["options"]]):
+            accepted = f"choose {' or '.join(options)}"
+            wrong.append(f"{choices[name]['label']} is {cut(str(value))}; {accepted}")
     if wrong:
         raise InputError(wrong)
 
@@ -246,8 +246,8 @@ def _factors(motions: Sequence[Motion]) -> str:
     if not motions:
         return ""
     factors = [motion.scale for motion in motions]
-    least, most = (number(value, 3) for value in (min(factors), max(factors)))
-    return f"× {least}" if least == most else f"× {least} to {most}"
+    lowest, highest = (number(value, 3) for value in (min(factors), max(factors)))
+    return f"× {lowest}" if lowest == highest else f"× {lowest} to {highest}"
 
 
 def _clearances(data: ProjectInput) -> str:

@@ -38,16 +38,16 @@ def problems(path: Path, error: InputError) -> list[Mapping[str, Any]]:
 
 def _shown(path: Path, book: OpenBook | None, equal: Sequence[Problem]) -> Mapping[str, Any]:
     first = equal[0]
-    sheet, _, at = first.where.rpartition("!")
-    cell = at if sheet else ""
+    sheet, _, address = first.where.rpartition("!")
+    cell = address if sheet else ""
     return {
         "file": path.name,
         "text": line_of(equal),
-        "found": first.found if sheet or not at else f"{at}: {first.found}",
+        "found": first.found if sheet or not address else f"{address}: {first.found}",
         "remedy": first.remedy,
         "sheet": sheet,
         "cell": cell,
-        "cells": listed(each.where.removeprefix(f"{sheet}!") for each in equal) if sheet else "",
+        "cells": listed(part.where.removeprefix(f"{sheet}!") for part in equal) if sheet else "",
         "row": _row(book, sheet, cell) if book and cell else None,
     }
 
@@ -60,21 +60,21 @@ def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
     header, columns = _headed(book, book.book[title], row, column)
     if row == header:
         return None
-    shown = [
+    numbers = [
         number
         for number in columns
         if header or not found_at(book, CellPosition(title, row, number)).is_blank
     ]
-    if column not in shown:
-        shown = sorted([*shown, column])
-    at = shown.index(column)
+    if column not in numbers:
+        numbers = sorted([*numbers, column])
+    place = numbers.index(column)
     # The first column names the row.
-    shown = [one for k, one in enumerate(shown) if k == 0 or abs(k - at) <= _BESIDE]
+    numbers = [number for k, number in enumerate(numbers) if k == 0 or abs(k - place) <= _BESIDE]
     return {
         "number": row,
-        "heads": [_text(book, title, header, number) if header else "" for number in shown],
-        "cells": [_text(book, title, row, number) for number in shown],
-        "at": shown.index(column),
+        "heads": [_text(book, title, header, number) if header else "" for number in numbers],
+        "cells": [_text(book, title, row, number) for number in numbers],
+        "at": numbers.index(column),
     }
 
 
@@ -110,34 +110,34 @@ def tables(path: Path) -> list[Mapping[str, Any]]:
 
 
 def _table(book: OpenBook, section: SheetSection) -> Mapping[str, Any]:
-    found = find_table(book, section)
-    title, shown = (
-        found.heading.sheet,
+    table = find_table(book, section)
+    title, entries = (
+        table.heading.sheet,
         {
-            found.columns[entry.name].number: entry
+            table.columns[entry.name].number: entry
             for entry in section.entries
-            if entry.name in found.columns and (entry.is_expected or entry.name in SIDES)
+            if entry.name in table.columns and (entry.is_expected or entry.name in SIDES)
         },
     )
-    texts = {row: [_text(book, title, row, number) for number in shown] for row in found.rows}
+    texts = {row: [_text(book, title, row, number) for number in entries] for row in table.rows}
     filled = [row for row, cells in texts.items() if any(cells)]
-    after = max([found.heading.row, *filled]) + 1
+    after = max([table.heading.row, *filled]) + 1
     return {
         "sheet": title,
         "is_open": section.key == "arrays" and not filled,
         "heads": [
             {
-                "text": _text(book, title, found.heading.row, number),
+                "text": _text(book, title, table.heading.row, number),
                 "need": entry.needed,
                 "help": entry.note,
                 "choices": list(entry.choices),
             }
-            for number, entry in shown.items()
+            for number, entry in entries.items()
         ],
         "rows": [
             [
                 {"cell": CellPosition(title, row, number).cell, "text": text}
-                for number, text in zip(shown, texts.get(row, [""] * len(shown)), strict=True)
+                for number, text in zip(entries, texts.get(row, [""] * len(entries)), strict=True)
             ]
             for row in [*filled, *range(after, after + _BLANK_ROWS)]
         ],
@@ -146,7 +146,7 @@ def _table(book: OpenBook, section: SheetSection) -> Mapping[str, Any]:
 
 def typed_cells(typed: Mapping[str, str]) -> Mapping[CellPosition, float | str | None]:
     """Return the typed values by cell, such as `Site!B26`, as in Excel."""
-    return dict(_typed_cell(*each) for each in typed.items())
+    return dict(_typed_cell(*pair) for pair in typed.items())
 
 
 def _typed_cell(address: str, text: str) -> tuple[CellPosition, float | str | None]:

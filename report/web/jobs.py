@@ -60,8 +60,8 @@ def perform(job: Json) -> Json:
         reply = {"answer": _JOBS[job["do"]](workbook, job)}
         is_complete = job["do"] in ("state", "assess") and not job.get("moving")
         if is_complete and not reply["answer"].get("problems"):
-            given = _open(workbook).at(job.get("values", {}))
-            reply["reference"] = reference_of(given.assessed(Extent.AS_GIVEN))
+            opened = _open(workbook).at(job.get("values", {}))
+            reply["reference"] = reference_of(opened.assessed(Extent.AS_GIVEN))
         return reply
     except InputError as error:
         return {"problems": problems(workbook, error)}
@@ -77,12 +77,12 @@ def state(workbook: Path, job: Json) -> Json:
     try:
         opened = _open(workbook)
     except InputError as error:
-        found = problems(workbook, error)
-        by_remedy = grouped_by(found, lambda one: (one["sheet"], one["remedy"] or one["text"]))
+        rows = problems(workbook, error)
+        by_remedy = grouped_by(rows, lambda row: (row["sheet"], row["remedy"] or row["text"]))
         return {
             "project": None,
             "answer": None,
-            "problems": found,
+            "problems": rows,
             "html": {
                 "problems": parts().problems(list(by_remedy.values())),
                 "fields": parts().fields(tables(workbook)),
@@ -125,13 +125,13 @@ def _lacks(workbook: Path) -> list[str]:
 
 def answer_at(workbook: Path, job: Json) -> Json:
     """Return the answer at values: from the largest runs while a slider moves, else complete."""
-    given = _open(workbook).at(job["values"])
+    opened = _open(workbook).at(job["values"])
     if job["moving"]:
-        reply = given.moving(job.get("reference", {}))
+        reply = opened.moving(job.get("reference", {}))
     else:
-        reply = given.assessed(Extent.OPEN if job.get("whole", True) else Extent.AS_GIVEN)
-    found = answer(reply, is_provisional=job["moving"], room_px=job["room"])
-    return {**drawn(found), "shown": shown(given)}
+        reply = opened.assessed(Extent.OPEN if job.get("whole", True) else Extent.AS_GIVEN)
+    result = answer(reply, is_provisional=job["moving"], room_px=job["room"])
+    return {**drawn(result), "shown": shown(opened)}
 
 
 def prepare(workbook: Path, _: Json) -> Json:
@@ -152,15 +152,15 @@ def _drawing(workbook: Path) -> Json | None:
         return None
     from report.drawing_read.read_dxf import read_dxf  # with ezdxf, half a second
 
-    found: dict[str, Any] = {"name": path.name, "kinds": list(LayerKind), "units": list(LENGTHS)}
+    drawing: dict[str, Any] = {"name": path.name, "kinds": list(LayerKind), "units": list(LENGTHS)}
     try:
         drawn_file, known = read_dxf(path), known_layers(layers_of(read(workbook).inputs))
     except InputError as error:
-        found["refused"] = error.problems[0]
+        drawing["refused"] = error.problems[0]
     else:
         layers = sorted({line.layer for line in drawn_file.lines})
-        found["unit"] = drawn_file.unit
-        found["layers"] = [
+        drawing["unit"] = drawn_file.unit
+        drawing["layers"] = [
             {
                 "layer": layer,
                 "drawn": drawn_on(drawn_file, layer),
@@ -168,7 +168,7 @@ def _drawing(workbook: Path) -> Json | None:
             }
             for layer in layers
         ]
-    return {"name": path.name, "html": parts().drawing(found)}
+    return {"name": path.name, "html": parts().drawing(drawing)}
 
 
 def _drawings(workbook: Path) -> Iterator[Path]:
@@ -216,8 +216,8 @@ def blank(_: Path, job: Json) -> Json:
 
 def write(workbook: Path, job: Json) -> Json:
     """Write the workbook that is assessed at values to another path."""
-    given = _open(workbook).at(job["values"])
-    cells_of = cells(given.sheet, given.typed)
+    opened = _open(workbook).at(job["values"])
+    cells_of = cells(opened.sheet, opened.typed)
     data = workbook.read_bytes()
     Path(job["to"]).write_bytes(changed(data, cells_of) if cells_of else data)
     return {}
@@ -239,18 +239,18 @@ def verdict(workbook: Path, job: Json) -> Json:
 
     While a search moves it is provisional: NG where the largest runs alone are.
     """
-    given, reference = _open(workbook).at(job["values"]), job.get("reference", {})
+    opened, reference = _open(workbook).at(job["values"]), job.get("reference", {})
     if job.get("moving"):
-        found = given.moving(reference).verdict
-        return stamp(found, found.value)
+        result = opened.moving(reference).verdict
+        return stamp(result, result.value)
     # The runs that may govern refute values without the others, half of all.
-    found = given.of_governing(reference).verdict
-    if found is not Verdict.NG:
-        found = given.assessed(Extent.AS_GIVEN).verdict
+    result = opened.of_governing(reference).verdict
+    if result is not Verdict.NG:
+        result = opened.assessed(Extent.AS_GIVEN).verdict
     # Less friction turns an OK into one with conditions, and nothing else.
-    if found is Verdict.OK:
-        found = given.assessed(Extent.LESS_FRICTION).verdict
-    return stamp(found, found.value)
+    if result is Verdict.OK:
+        result = opened.assessed(Extent.LESS_FRICTION).verdict
+    return stamp(result, result.value)
 
 
 def _view(draw: Callable[[Assessment, Json], Json]) -> Callable[[Path, Json], Json]:

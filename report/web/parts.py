@@ -18,24 +18,24 @@ _SUBSCRIPT = re.compile(r"\b([A-Z])_(\w{1,3})\b")
 _SENT = ("verdict", "line", "verdict_text", "model_text", "next", "pending", "tips")
 
 
-def drawn(found: Mapping[str, Any]) -> dict[str, Any]:
+def drawn(answer: Mapping[str, Any]) -> dict[str, Any]:
     """Return an answer with its elements as HTML, by their ids; bars by array."""
     make = parts()
-    bars, plan = found["bars"], found["plan"]
-    lengths = [line["length_m"] for one in bars.values() for line in one["lines"]]
-    lengths += [row["prd_m"] for one in bars.values() for row in one["rows"]]
+    bars, plan = answer["bars"], answer["plan"]
+    lengths = [line["length_m"] for chart in bars.values() for line in chart["lines"]]
+    lengths += [row["prd_m"] for chart in bars.values() for row in chart["rows"]]
     scale_m = max(filter(None, lengths), default=1.0)
-    return {name: found[name] for name in _SENT} | {
-        "count": sum(reason["level"] != "remedy" for reason in found["reasons"]),
+    return {name: answer[name] for name in _SENT} | {
+        "count": sum(reason["level"] != "remedy" for reason in answer["reasons"]),
         "plan": {name: plan[name] for name in ("size_px", "rooms_px")},
         "html": {
-            "headline": make.headline(found) if found["verdict"] else "",
-            "worst": make.worst(found["worst"]),
-            "reasons": make.reasons(found),
-            "warnings": make.warnings(found),
-            "arrays": make.arrays(found["arrays"]),
-            "clearances": make.clearances(found["clearances"]),
-            "bars": {id: make.bars(one, scale_m) for id, one in bars.items() if one["rows"]},
+            "headline": make.headline(answer) if answer["verdict"] else "",
+            "worst": make.worst(answer["worst"]),
+            "reasons": make.reasons(answer),
+            "warnings": make.warnings(answer),
+            "arrays": make.arrays(answer["arrays"]),
+            "clearances": make.clearances(answer["clearances"]),
+            "bars": {id: make.bars(chart, scale_m) for id, chart in bars.items() if chart["rows"]},
             "plan": make.plan(plan),
         },
     }

@@ -33,8 +33,8 @@ def run_forces(
     also where the run gives no displacement.
     """
     scene = _modeled(run)
-    of = forces(scene)
-    demand = _demand_at(of, np.arange(of.normal_mps2.size, dtype=np.float64))
+    acting = forces(scene)
+    demand = _demand_at(acting, np.arange(acting.normal_mps2.size, dtype=np.float64))
     across = history.across_mps if history.across_mps.size else 0.0
     # The history is in plan: along the slope it is longer by 1 / cos θ.
     speed = np.hypot(history.v_mps / math.cos(scene.slope_rad), across)
@@ -44,7 +44,7 @@ def run_forces(
     sliding = law.mu_fast - drop * np.exp(-law.rate_s_per_m * speed)
     used = np.where(during(slips, history.t_s), sliding, demand)
     used[np.isnan(demand) | np.isnan(history.u_m)] = math.nan
-    return of.normal_mps2 / scene.g_mps2, demand, used
+    return acting.normal_mps2 / scene.g_mps2, demand, used
 
 
 def with_jumps(run: OrientedRun, used: Floats, events: Sequence[Event]) -> tuple[Floats, Floats]:
@@ -56,7 +56,7 @@ def with_jumps(run: OrientedRun, used: Floats, events: Sequence[Event]) -> tuple
         Numbers of samples, ascending, and values; a jump has two values at one number.
     """
     law, dt_s = _modeled(run).friction, run.scene.dt_s
-    at = np.arange(used.size)
+    samples = np.arange(used.size)
     jumps = np.array([event.t_s for event in events]) / dt_s
     # Where the block turns back at once, the demand is above what friction can give at rest.
     at_rest = np.minimum(_demand_at(forces(_modeled(run)), jumps), law.mu_static)
@@ -64,17 +64,18 @@ def with_jumps(run: OrientedRun, used: Floats, events: Sequence[Event]) -> tuple
     # Slip begins from the demand at rest and ends at no speed, with the slow coefficient.
     before = np.where(begins, at_rest, law.mu_slow)
     after = np.where(begins, law.mu_slow, at_rest)
-    i, v = np.concatenate([at, jumps, jumps]), np.concatenate([used, before, after])
+    i, v = np.concatenate([samples, jumps, jumps]), np.concatenate([used, before, after])
     # Stable: of two values at one number the one before the jump stays first.
     order = np.argsort(i, kind="stable")
     return i[order], v[order]
 
 
-def _demand_at(of: Forces, at: Floats) -> Floats:
+def _demand_at(acting: Forces, places: Floats) -> Floats:
     """Return the friction demand between samples, where forces are linear; NaN without contact."""
-    samples = np.arange(of.normal_mps2.size)
+    samples = np.arange(acting.normal_mps2.size)
     down, across, normal = (
-        np.interp(at, samples, force) for force in (of.down_mps2, of.across_mps2, of.normal_mps2)
+        np.interp(places, samples, force)
+        for force in (acting.down_mps2, acting.across_mps2, acting.normal_mps2)
     )
     demand = np.full(normal.size, math.nan)
     np.divide(np.hypot(down, across), normal, out=demand, where=normal > 0.0)

@@ -143,21 +143,21 @@ def contour_lines(surface: ResponseSurface) -> Callable[[float], list[list[list[
 
 
 def _divided(axis: Floats) -> Floats:
-    at = np.arange(_FINE * (axis.size - 1) + 1) / _FINE
-    return np.interp(at, np.arange(axis.size), axis)
+    places = np.arange(_FINE * (axis.size - 1) + 1) / _FINE
+    return np.interp(places, np.arange(axis.size), axis)
 
 
-def _array(assessment: Assessment, wanted: str) -> ArrayAssessment:
-    return _named("array", assessment.arrays, wanted, lambda run: run.id)
+def _array(assessment: Assessment, id: str) -> ArrayAssessment:
+    return _named("array", assessment.arrays, id, lambda run: run.id)
 
 
-def _named(kind: str, items: Sequence[_T], wanted: str, name: Callable[[_T], str]) -> _T:
+def _named(kind: str, items: Sequence[_T], asked: str, name: Callable[[_T], str]) -> _T:
     """Return the item of a name; where the project does not have it, say which it has."""
     for item in items:
-        if name(item) == wanted:
+        if name(item) == asked:
             return item
     known = ", ".join(name(item) for item in items)
-    raise InputError(f"there is no {kind} '{wanted}'; choose one of {known}")
+    raise InputError(f"there is no {kind} '{asked}'; choose one of {known}")
 
 
 def _run_choice(motion: MotionRun, run: OrientedRun, fmt: UnitFormat) -> Json:
