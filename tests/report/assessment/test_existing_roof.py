@@ -34,7 +34,7 @@ def test_without_its_loads_one_line_says_that_it_is_not_checked():
     (row,) = rows().values()
     assert row.verdict is Verdict.CONDITION
     assert row.found == (
-        "not checked: design load of the roof, seismic weight of the building not entered"
+        "not checked: design load of the roof and seismic weight of the building not entered"
     )
     assert row.clause == "IEBC 503.3, 503.4\u2020"
     assert {place.field for place in row.places} == {
