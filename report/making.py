@@ -109,11 +109,8 @@ def make(
     short = fingerprint(sheet.source, motions)
     pdf = lay_out(html, attachments(files, results, short), sheet_counts.append)
     if assessment.project.options.package_edition is PackageEdition.LETTER and sheet_counts[0] > 2:
-        raise InputError(
-            "Options: edition is letter, which has two sheets; this input requires"
-            f" {sheet_counts[0]}: "
-            "choose plan check, or Letter or A4 for the roof plan"
-        )
+        fault = f"edition is letter, which has two sheets; this input requires {sheet_counts[0]}"
+        raise InputError(f"Options: {fault}: choose plan check, or 11 x 17 or A3 for the roof plan")
 
     progress(Step("writing the result tables"))
     browser_page = page(html, assessment, short, results) if has_page else b""

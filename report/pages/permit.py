@@ -43,6 +43,7 @@ def letter(package: PackageData) -> Mapping[str, object]:
     return {
         **cover.page(package),
         "kind": "permit letter",
+        "sheet": package.printed_plan.size.sheet,
         "verdict": stamp(done.verdict, done.verdict.value),
         "verdict_sentence": verdict_sentence(done, "below"),
         "site": data.site,

@@ -66,6 +66,8 @@ def test_more_than_two_sheets_are_refused(project, monkeypatch):
         ("example", "SI", "A3"),
         ("conditions", "US", "automatic"),  # 14 open conditions
         ("conditions", "SI", "automatic"),
+        ("conditions", "US", "11 x 17"),
+        ("conditions", "SI", "A3"),
     ],
 )
 def test_two_sheets_have_room_in_both_units_on_large_paper_and_for_many_conditions(
