@@ -161,14 +161,21 @@ def condition_table(sheet: FirstSheet, done: Assessment, numbers: Mapping[str, s
     """Return the conditions, each with the result for the project if it is not met below."""
     us_first, rows = done.project.us_first, []
     for count, check in enumerate(sheet.conditions):
-        found_text, limit_text = texts(check, us_first, is_both=False)
-        title = f"{check.subject}: {lowered(check.title)}" if check.subject else check.title
+        title, found_text, *others = open_cells(check, us_first)
         found_text += f" ({check.note})" if check.note else ""
-        cells = title, found_text, f"{limit_text} ({check.clause})", check.actor.value
-        rows.append(_row(*cells, _sheet(check, numbers, f"{OPEN}{count}")))
+        cells = title, found_text, *others, _sheet(check, numbers, f"{OPEN}{count}")
+        rows.append(_row(*cells))
         if check.otherwise:
-            rows.append(_below(f"If not met, {lowered(check.otherwise)}", len(cells) + 1))
+            rows.append(_below(f"If not met, {lowered(check.otherwise)}", len(cells)))
     return replace(_CONDITION_HEADS, rows=tuple(rows))
+
+
+def open_cells(check: Check, us_first: bool) -> tuple[str, str, str, str]:
+    """Return what an open check is about, what is found, what is required, and who acts."""
+    found_text, limit_text = texts(check, us_first, is_both=False)
+    title = f"{check.subject}: {lowered(check.title)}" if check.subject else check.title
+    required = f"{limit_text} ({check.clause})" if check.clause else limit_text
+    return title, found_text, required, check.actor.value
 
 
 def all_checks(done: Assessment) -> Table:

@@ -10,21 +10,17 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from report.assessment.checks.sentence import texts
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.friction import mu_words
 from report.assessment.design.separation import importance_factor
 from report.assessment.design.verdict import Verdict
 from report.document.columns import centered, plain, required, text, words
-from report.document.tables import Column, Table, headed, listed, part_of, stamp
-from report.drawing.sheet import unit_format
+from report.document.tables import Column, Table, headed, listed, stamp
 from report.pages import cover
-from report.pages.checks import verdict_sentence
-from report.pages.clearance_tables import plan_schedule
+from report.pages.checks import open_cells, verdict_sentence
 from report.pages.marks import prescriptive_key
 from report.pages.parts import PackageData, friction_report
 from report.pages.symbols import with_symbols
-from report.text.letter_case import lowered
 from report.text.units import number
 from solver.rules.provisions import SEPARATION_KEYS, Neighbor, required_separation
 
@@ -45,17 +41,15 @@ def letter(package: PackageData) -> Mapping[str, object]:
         "kind": "permit letter",
         "sheet": package.printed_plan.size.sheet,
         "verdict": stamp(done.verdict, done.verdict.value),
-        "verdict_sentence": verdict_sentence(done, "below"),
-        "site": data.site,
+        "verdict_sentence": verdict_sentence(done),
+        "data": data,
         "s_ds": number(data.site.s_ds, 3),
         "i_e": number(data.site.i_e, 2),
-        "confirmed": data.confirmed,
         "prescriptive_clause": done.rules.values[prescriptive_key(done.governing)].clause,
         "clause": package.marks.clause("separation_fixed"),
         "factors": factors,
         "has_importance": done.rules.importance_in_separation,
         "arrays": _arrays(package),
-        "tests": data.friction_tests,
         "report": friction_report(data.friction_tests),
         "fingerprint": package.fingerprint,
         "workbook": done.source.path.name,
@@ -92,31 +86,9 @@ def _separation(package: PackageData, head: str, neighbor: Neighbor) -> Column:
 
 def _open_checks(package: PackageData) -> Table:
     """Return the open checks and who must act; NG items are marked."""
-    done, data = package.assessment, package.data
     rows = []
-    for check in done.open:
-        found_text, limit_text = texts(check, data.us_first, is_both=False)
-        title = f"{check.subject}: {lowered(check.title)}" if check.subject else check.title
-        required_by = f"{limit_text} ({check.clause})" if check.clause else limit_text
+    for check in package.assessment.open:
         mark = stamp(check.verdict) if check.verdict is Verdict.NG else ""
-        rows.append((*map(with_symbols, (title, found_text, required_by, check.actor.value)), mark))
-    heads = (
-        ("Open", 2.2),
-        ("Found", 2.6),
-        ("Required", 3.5),
-        ("Action by", 0.9),
-        ("", 0.3, "center"),
-    )
-    return headed(*heads, rows=rows, kind="compact")
-
-
-def plan(package: PackageData) -> Mapping[str, object]:
-    """Return the second sheet: the plan, with the schedule below it or, on large paper, beside."""
-    printed = package.printed_plan
-    fmt = replace(unit_format(package.assessment), systems=1, none="none")
-    return {
-        "sheet": printed.size.sheet,
-        "width_in": number(printed.size.wide, 2),
-        "unnamed": ", ".join(printed.unnamed),
-        "schedule": part_of(plan_schedule(package, fmt), 0, is_narrow=bool(printed.size.sheet)),
-    }
+        rows.append((*map(with_symbols, open_cells(check, package.data.us_first)), mark))
+    heads = ("Open", 2.2), ("Found", 2.6), ("Required", 3.5), ("Action by", 0.9)
+    return headed(*heads, ("", 0.3, "center"), rows=rows, kind="compact")

@@ -97,7 +97,7 @@ PAGES = (
 # Of the edition letter.
 LETTER_PAGES = (
     Page("permit", "Displacements and separations", _alone(permit.letter)),
-    Page("permit-plan", "Roof plan and schedule of clearances", _alone(permit.plan)),
+    Page("permit-plan", "Roof plan and schedule of clearances", _alone(plan.page)),
 )
 
 # Pages that need runs: a package without motions does not have them.

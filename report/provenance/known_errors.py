@@ -38,19 +38,14 @@ def known_errors() -> tuple[KnownError, ...]:
 
 def touching(made_by: str, results: Any) -> Iterator[KnownError]:
     """Yield errors that may affect a package, from its version and its results.json."""
-    for error in known_errors():
-        is_of_it = error.of == "package" and _holds(results, error.needs)
-        if is_of_it and _is_up_to(made_by, error.until):
-            yield error
-
-
-def _is_up_to(made_by: str, last: str) -> bool:
     try:
         # Without its commit, which has no order.
-        return Version(Version(made_by).public) <= Version(last)
+        made = Version(Version(made_by).public)
     except InvalidVersion:
-        # A version that cannot be read may be any: the error is named rather than left out.
-        return True
+        made = Version("0")  # it may be any: an error is named rather than left out
+    for error in known_errors():
+        if error.of == "package" and made <= Version(error.until) and _holds(results, error.needs):
+            yield error
 
 
 def _holds(results: Any, place: str) -> bool:
