@@ -83,7 +83,7 @@ def pages() -> Mapping[Path, str]:
         "known-errors": _page(
             "Known errors",
             "Errors that could change a number, a verdict or a refusal, by the last version with "
-            "them. States between releases that print the same version may contain them. "
+            "them. Commits between releases that print the same version may also contain them. "
             "`./roofslip verify-package FILE.pdf` lists those that a package may have; the "
             "engineer of record decides whether an issued package is affected.",
             _errors(),
