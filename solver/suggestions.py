@@ -54,7 +54,7 @@ def _plain(name: str) -> str:
 def meant(path: Path) -> str:
     """Suggest an existing path close to one that does not exist; empty if there is none.
 
-    Of its parts the first that is not there is compared with what is in its folder.
+    The first missing part of the path is compared with the contents of its folder.
     """
     try:
         # From the file up to the root, so the last one that is missing is the first on the way

@@ -238,7 +238,7 @@ def closed_by(table: Table, cells: Sequence[str]) -> Table:
 
 
 def merged(table: Table, *heads: str, once: bool = False) -> Table:
-    """Return a table with one row for those that differ in names alone, which it lists.
+    """Return a table with one row for rows that differ only in names, which it lists.
 
     The names are in the columns with these headings, else in the first. Those of
     the others follow the first in their order, or are said `once` each, that count on as one.

@@ -34,7 +34,7 @@ _OVERHANG_IN = 0.6  # of a dimension beyond the facing sides, where they are sho
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lane:
-    """Where labels of a gap slide: on a line through its middle along the facing sides."""
+    """Line on which labels of a gap may move: through its middle, along the facing sides."""
 
     gap: Gap
     along: Point  # of length 1
@@ -110,7 +110,7 @@ def _steps(start: float, end: float) -> Iterator[float]:
 
 
 def _numbered(plan: PlanSheet, lane: Lane) -> Lane:
-    """Draw a gap with its number, and NG beside it; return the lane with their frame."""
+    """Draw a gap with its number, and NG next to it; return the lane with their frame."""
     gap, is_ng = lane.gap, plan.is_ng(lane.gap)
     circle = 2 * RADIUS_IN if gap.of.is_given else 0.0
     ng = (NG_TALL_IN if lane.is_upright else ng_wide()) if is_ng else 0.0

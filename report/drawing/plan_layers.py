@@ -74,7 +74,7 @@ class PlacedTexts:
                 placer.take_segment(*ends)
 
     def name(self, layer: Layer, id: str, words: str, shape: Shape, further: str = "") -> None:
-        """Name a shape within it or beside it with a leader, or else by a number in the list.
+        """Name a shape inside or next to it with a leader, or else by a number in the list.
 
         The text of `further` is placed where it fits.
         """
@@ -112,7 +112,7 @@ class PlacedTexts:
             self.name(layer, id, words, shape)
 
     def dimension(self, layer: Layer, name: str, words: str, gap: Gap) -> None:
-        """Dimension a gap with its text beside the line, or else with a leader."""
+        """Dimension a gap with its text next to the line, or else with a leader."""
         lane, tall = lane_of(self.paper, gap), 1.5 * _CAP_IN
         # As wide as the library takes it, which interrupts the line behind it.
         long = max(_CAP_IN * len(words) + PAD_IN, _size(words)[0])

@@ -178,7 +178,7 @@ COLUMN_IN = 2.8
 
 
 def _large(sheet: str, wide: float, tall: float) -> tuple[PlanSize, ...]:
-    """Return full plans beside one and two columns of tables on a sheet with this room [in]."""
+    """Return full plans next to one and two columns of tables on a sheet of this size [in]."""
     return tuple(
         PlanSize(wide=wide - n * COLUMN_IN, tall=tall, columns=n, sheet=sheet, is_full=True)
         for n in (1, 2)

@@ -92,7 +92,7 @@ def limit(count: int, allowed: int, noun: str) -> None:
 def loaded(path: Path) -> tuple[Document, str]:
     """Return a drawing, and a note on its repair if strict reading rejects it.
 
-    Raises `InputError` if it is no DXF, damaged, or too large.
+    Raises `InputError` if it is not a DXF, damaged, or too large.
     """
     data = _read(path)
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())

@@ -191,7 +191,7 @@ def _unread(line: DrawnOutline, reason: str, detail: str = "") -> Unread:
 
 
 def _shape(line: DrawnOutline, unit_m: float) -> Shape | Unread:
-    """Return the shape of a line [m], or why it is none."""
+    """Return the shape of a line [m], or why it has none."""
     scaled = [(x * unit_m, y * unit_m) for x, y in line.shape.points]
     # Most lines are modules, which need no search for vertices in line and for crossings.
     if (module := _clear_box(scaled)) is not None:

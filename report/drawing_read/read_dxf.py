@@ -54,7 +54,7 @@ _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 def read_dxf(path: Path, unit_m: float | None = None) -> RoofDrawing:
     """Read a roof drawing; arcs become chords by the size of its unit [m] where it states none.
 
-    Raises `InputError` if it is no DXF, damaged, too large, or its blocks expand to too much.
+    Raises `InputError` if it is not a DXF, damaged, too large, or its blocks expand to too much.
     """
     document, repairs = loaded(path)
     try:
@@ -232,7 +232,7 @@ class _Reader:
         return "" if points else f"a {entity.dxftype()} without an area"
 
     def _take_area(self, entity: Any, layer: str, handle: str, block: _Block) -> str:
-        """Note a hatch, or the faces of a mesh, or return why it is none."""
+        """Note a hatch, or the faces of a mesh, or return why it is not one."""
         kind = entity.dxftype()
         is_hatch = kind in HATCHES
         areas = (
@@ -282,7 +282,7 @@ class _Reader:
         self.areas.clear()
 
     def _close(self, line: DrawnOutline, kind: str) -> str:
-        """Add a line as closed, or return why it is none."""
+        """Add a line as closed, or return why it is not closed."""
         points = line.shape.points
         if len(points) < 3:
             return f"a {kind} without an area"

@@ -1,6 +1,6 @@
 """Matches each outline of a drawing with a row of a workbook: by name, else by location.
 
-An outline without a name that covers most of the former place of A2 is A2.
+An outline without a name that covers most of the previous location of A2 is A2.
 
 Reads no drawing and changes no cell (`report.drawing_read.fill`). Read `matched` first.
 """
@@ -167,7 +167,7 @@ def _common(place: DrawnOutline, row: Shape) -> float:
 
 
 def _near(place: DrawnOutline, row: Shape) -> float:
-    """Return how near the center of an outline without a name is to that of a row [1/m]."""
+    """Return the closeness of the center of an outline without a name to that of a row [1/m]."""
     far_m = math.dist(mean(place.shape.bounds.points), mean(row.bounds.points))
     return 1.0 / max(far_m, STILL_M) if place.unnamed else 0.0
 

@@ -66,7 +66,7 @@ def _by_section(verification: Verification) -> Mapping[str, Sequence[Verified]]:
 
 
 def _results(verification: Verification) -> Iterator[tuple[str, str, int]]:
-    """Yield what was found, how much of it, and the section that says more."""
+    """Yield each result, its value, and the section with details."""
     work, maps, links = verification.work, verification.maps, verification.links
     checked = statuses(verification.checks)
     # P = 64 sub-steps in each sampling interval, for which the paper states its errors.

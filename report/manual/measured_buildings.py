@@ -66,7 +66,7 @@ _NAMED = {
 
 
 def _said(change: ModelChange) -> Mapping[str, object]:
-    """Return what sentences tell of a change; nothing where it has no ratios."""
+    """Return the values of a change for sentences; nothing if it has no ratios."""
     if not change.ratios.size:
         return {}
     return {

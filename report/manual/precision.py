@@ -46,7 +46,7 @@ _METHODS = (
 
 
 def methods(verification: Verification) -> Section:
-    """Return what each method is, and its errors against 50 digits."""
+    """Return the description of each method, and its errors against 50 digits."""
     errors = verification.rivals
     kinds = errors.pivot(columns="motions", values="error [%]").assign(method=errors["method"])
     name = (words("Method", 3.6), lambda row: METHODS[row[0]].title)

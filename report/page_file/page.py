@@ -180,7 +180,7 @@ def _sections(package: str, shades: Mapping[str, str]) -> list[FileSection]:
 
 
 def _markup(section: Element, numbers: Mapping[str, str], shades: Mapping[str, str]) -> str:
-    """Return what is in a section as HTML for a screen: its pictures are part of it."""
+    """Return the content of a section as HTML for a screen, including its pictures."""
     for parent in list(section.iter()):
         for place, child in enumerate(parent):
             if child.tag == "img" and child.get("src", "").startswith(_SVG_DATA):

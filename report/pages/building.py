@@ -65,7 +65,7 @@ def building_part(
 
 
 def _model(components: Sequence[_Transferred]) -> str:
-    """Return the models of the components in words, by component where they differ."""
+    """Return the models of the components as text, by component if they differ."""
     models = grouped_by(components, lambda item: item.roof.building.words)
     texts = []
     for model, of_model in models.items():

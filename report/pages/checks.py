@@ -50,7 +50,7 @@ class FirstSheet:
     """What the two tables of the first sheet have."""
 
     failed: Sequence[Check]
-    """What is NG, the largest ratio first."""
+    """NG items, the largest ratio first."""
     n_following: int
     """NG that only follow from a design displacement that is not there."""
     largest: Sequence[Check]

@@ -39,7 +39,7 @@ def numbered_gaps(assessment: Assessment) -> Sequence[NumberedGap]:
 
 
 def plan_schedule(package: PackageData, fmt: UnitFormat) -> Table:
-    """Return the schedule of clearances beside the plan, in one system of units."""
+    """Return the schedule of clearances next to the plan, in one system of units."""
     columns: Sequence[Column] = (
         (text("No.", share=0.42), lambda gap: gap.number),
         (words("From", 0.84), lambda gap: gap.check.clearance.array),

@@ -172,13 +172,13 @@ def _columns(
 
 
 def _entered(row: EchoRow, unit: str, changed: Set[str]) -> str:
-    """Return what was entered, bold where it changed."""
+    """Return the entered value, bold if it changed."""
     text = _as_entered(row, unit)
     return Markup("<b>{}</b>").format(text or "—") if _is_changed(row, changed) else text
 
 
 def _as_entered(row: EchoRow, unit: str) -> str:
-    """Return what was entered; for a blank cell its default."""
+    """Return the entered value; for a blank cell its default."""
     if _is_blank(row):
         return "" if row.value == "—" else row.value
     text = with_unit(row.typed, unit)
@@ -189,7 +189,7 @@ def _as_entered(row: EchoRow, unit: str) -> str:
 
 
 def _blank(row: EchoRow, place: str) -> str:
-    """Return what is left blank, with the default that it stands for."""
+    """Return the blank cells, with their defaults."""
     default = "" if row.value == "—" else f" = {row.value.removesuffix(' (default)')}"
     return f"{place} {row.label}{default}"
 

@@ -89,7 +89,7 @@ def page(package: PackageData, evidence: Evidence) -> Mapping[str, object]:
 
 
 def _between(package: PackageData, spectra: Sequence[Spectra]) -> str:
-    """Return where a spectrum is lower between the points of the limits; nothing if none is."""
+    """Return the lower points of a spectrum between the points of the limits; nothing if none."""
     lowest = lowest_between(package.assessment.acceptance, spectra)
     if lowest is None:
         return ""
@@ -114,7 +114,7 @@ def _ground_target(name: str) -> str:
 
 
 def _departure(departure: Departure) -> str:
-    """Return where the mean of the motions misses its target, by how much, and what follows."""
+    """Return the deviation of the mean of the motions from its target, and the consequence."""
     first, *others = departure.titles
     likewise = f" ({'; '.join(others).lower()} likewise)" if others else ""
     hertz = f"{NO_BREAK}Hz"
@@ -236,7 +236,7 @@ def _drift_table(package: PackageData, unit: Unit) -> Table:
 
 
 def _final(prepared: PreparedMotion, name: str, end: str, si: float) -> float:
-    """Return an end of a component in a unit; NaN for a component that there is none of."""
+    """Return a final value of a component in a unit; NaN for a missing component."""
     measures = prepared.measures.get(name)
     return getattr(measures, end) / si if measures else math.nan
 

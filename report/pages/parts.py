@@ -34,7 +34,7 @@ MOTION_ROWS = 22
 
 
 def statistic(basis: Basis) -> str:
-    """Return the statistic of the peaks, in words."""
+    """Return the statistic of the peaks as text."""
     return basis.value.replace(" x ", " × ")
 
 
@@ -85,7 +85,7 @@ class PackageData:
         return 2.8 if any(array.friction.is_by_velocity for array in self.data.arrays) else 0.9
 
     def sentences(self, id: str, arrays: Collection[str] = ()) -> Sequence[str]:
-        """Return the open checks of a kind in words, those that ask the same as one."""
+        """Return the open checks of a verdict as sentences, identical ones combined."""
         ids = set(arrays or (item.id for item in self.assessment.arrays))
         checks = self.assessment.checks
         of_kind = [c for c in checks if c.id == id and c.is_open and not ids.isdisjoint(c.arrays)]

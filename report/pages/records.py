@@ -59,7 +59,7 @@ def page(package: PackageData) -> Mapping[str, object]:
 
 
 def _notes(package: PackageData) -> Iterator[str]:
-    """Yield what was noted of each record file, and what no sheet of it shows."""
+    """Yield the notes on each record file, and facts that no sheet of it shows."""
     for file in package.assessment.shaking.records:
         name = f"{file.motion_id} {file.component}"
         for note in file.notes:

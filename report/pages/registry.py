@@ -58,7 +58,7 @@ class Page:
 
 
 def _alone(fill: Callable[[PackageData], Content]) -> Fill:
-    """Return what fills a page that needs no evidence."""
+    """Return the function that fills a page without evidence."""
     return lambda package, _: fill(package)
 
 
@@ -139,7 +139,7 @@ def package_data(
     since: Changes = NO_FORMER,
     edition: PackageEdition | None = None,
 ) -> PackageData:
-    """Return an assessment with the part numbers, and what changed since a former revision.
+    """Return an assessment with the part numbers, and the changes since a previous revision.
 
     Without an edition, that of the Options worksheet.
     """

@@ -94,7 +94,7 @@ def _peaks(package: PackageData, group: _Alike, orientations: Sequence[Orientati
     unit = fmt.units()[0].symbol
 
     def in_first(head: str, below: str) -> ColumnHead:
-        """Return how a length is shown in the preferred system alone."""
+        """Return the format of a length in the preferred system only."""
         return ColumnHead(head=f"{head}, {unit}", unit=below, text=partial(fmt.first, show=no_less))
 
     columns: list[Column] = [

@@ -68,7 +68,7 @@ def _g(value_g: float | None) -> str:
 
 
 def _building(package: PackageData) -> Iterator[_Row]:
-    """Yield what the building and the arrays take: importance, factors of a component, heights."""
+    """Yield the values of the building and the arrays: importance, component factors, heights."""
     site, fmt, clause = package.data.site, package.fmt, package.data.site.edition.clause
     factor, divisor = site.edition.force_factors
     importances = sorted({array.i_p for array in package.data.arrays})
@@ -163,7 +163,7 @@ _Named = tuple[str, float | None]
 def _maximum_source(
     site: Site, given_g: float | None, coefficient: _Named, mapped: _Named, design: _Named
 ) -> str | Markup:
-    """Return how a value at the maximum considered earthquake follows, as `Site.parameters`."""
+    """Return the derivation of a maximum considered earthquake value, as in `Site.parameters`."""
     if given_g is not None:
         return "input"
     if site.edition.has_site_coefficients and mapped[1] and coefficient[1]:
@@ -176,7 +176,7 @@ def _maximum_source(
 
 
 def _design_source(given_g: float | None, maximum: str, maximum_g: float | None) -> str | Markup:
-    """Return how a design value follows."""
+    """Return the derivation of a design value."""
     if given_g is not None:
         return "input"
     if maximum_g is not None:

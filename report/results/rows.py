@@ -113,7 +113,7 @@ def results(assessment: Assessment, evidence: Evidence) -> Results:
 
 
 def compared(assessment: Assessment) -> Compared:
-    """Return what a later revision is compared with."""
+    """Return the data that a later revision is compared with."""
     return Compared(
         roofslip_version=version(),
         records=tuple(map(_record, assessment.shaking.records)),

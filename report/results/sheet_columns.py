@@ -277,7 +277,7 @@ def _shown(value: Any, decimals: int | None) -> str:
 
 
 def written(value: Any) -> Any:
-    """Return what a cell holds: ordinary spaces, a text for what no number can be."""
+    """Return the content of a cell: ordinary spaces, and text if there is no number."""
     if isinstance(value, float) and not math.isfinite(value):
         return NO_VALUE if math.isnan(value) else str(value)
     return spaced(value) if isinstance(value, str) else value

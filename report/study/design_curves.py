@@ -114,7 +114,7 @@ def _about(results: StudyResults, building: int) -> Sequence[tuple[str, str]]:
 
 
 def _drawn(results: StudyResults, building: int) -> tuple[Floats, Floats]:
-    """Return the leading displacement and the mean beside it; NaN where the mean leads."""
+    """Return the leading displacement and the mean next to it; NaN if the mean leads."""
     values, mean = results.displacements[results.leading][building], results.curves.mean_m[building]
     return values, mean if results.plan.design_rule.has_value else np.full_like(mean, np.nan)
 

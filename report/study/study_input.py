@@ -72,7 +72,7 @@ class NoValue(StrEnum):
 
 
 class Sampling(StrEnum):
-    """How uncertain values are combined."""
+    """Method of combining uncertain values."""
 
     LATIN_HYPERCUBE = "Latin hypercube"
     ALL_COMBINATIONS = "all combinations"

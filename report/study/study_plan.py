@@ -85,12 +85,12 @@ class StudyPlan:
 
     @cached_property
     def design_rule(self) -> DesignRule:
-        """How the design displacement follows from the PRDs of the motions."""
+        """Rule for the design displacement from the PRDs of the motions."""
         return design_rule(self.input, len(self.motions.motions[0]))
 
     @property
     def about(self) -> dict[str, Any]:
-        """What determines the results besides motions and cases, for the manifest."""
+        """Data other than motions and cases that determine the results, for the manifest."""
         return {
             "seed": self.input.study.seed,
             "seeds": {f"array {array.array.id}": array.seed for array in self.arrays},

@@ -84,7 +84,7 @@ class StudyResults:
 
     @property
     def displacements(self) -> Mapping[str, Floats]:
-        """The design displacement, and beside it the statistics of the PRD, by name."""
+        """The design displacement and the statistics of the PRD, by name."""
         c = self.curves
         statistics = zip(STATISTICS, (c.mean_m, c.p84_m, c.largest_m), strict=True)
         return {self.plan.design_rule.name: self.design_m, **dict(statistics)}

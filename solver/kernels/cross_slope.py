@@ -1,4 +1,4 @@
-"""What cross-slope shaking can change, bounded in one pass over the record, jitted.
+"""Bounds of the effect of cross-slope shaking, in one pass over the record, jitted.
 
 Samples of 0, 4, -4, 0 m/s2 at 0.1 s move a block with mu = 0.2 on a flat roof 4.9 mm. A hundredth
 of them across changes that by 0.001 mm; the bound is 2.8 mm, and falls in proportion to ay.

@@ -22,7 +22,7 @@ Lengths = TypeVar("Lengths", float, Floats)
 
 
 class PrescriptiveBasis(StrEnum):
-    """What governs the prescriptive displacement."""
+    """Basis that governs the prescriptive displacement."""
 
     LOW_CATEGORY = "SDC A, B, C"
     FORMULA = "equation"

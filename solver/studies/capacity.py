@@ -190,7 +190,7 @@ def capacities(
 
 
 def maximum_searches(limits_m: Sequence[float], levels: Floats, steps: int = SCAN) -> int:
-    """Return how many intensities of a motion `capacities` may run at most."""
+    """Return the maximum number of intensities that `capacities` runs for a motion."""
     return steps + len(levels) + MOST_CLOSER * sum(limit > 0.0 for limit in limits_m)
 
 

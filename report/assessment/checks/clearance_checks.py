@@ -121,7 +121,7 @@ def of_roof(data: ProjectInput) -> Iterator[Check]:
 
 
 def _drawing_distances(data: ProjectInput, array: Array) -> Iterator[Check]:
-    """Yield the distances beside an array that are from the drawing, which no check compares."""
+    """Yield the distances of an array that are from the drawing and not compared by a check."""
     drawn = [
         index
         for index, row in enumerate(data.clearances)

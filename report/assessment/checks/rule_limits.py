@@ -60,7 +60,7 @@ def of_array(item: RouteLimits, index: int, id: str, *, has_motions: bool) -> It
 def against_analysis(
     data: ProjectInput, rules: RuleSet, item: RouteLimits, acceptance: Acceptance, n_motions: int
 ) -> Sequence[str]:
-    """Return what does not permit the analysis of an array, in a few words each."""
+    """Return the short reasons why the analysis of an array is not permitted."""
     limits = (*acceptance.missed, *item.analysis_checks)
     missed = [limit for limit in limits if not limit.ok and limit.consequence is Consequence.NG]
     lacking = lacking_motions(rules, statistic_basis(data), n_motions)

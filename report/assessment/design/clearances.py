@@ -65,7 +65,7 @@ class ClearanceCheck(ComparedGap):
 
     @property
     def between(self) -> tuple[str, str]:
-        """What is on either side."""
+        """The items on either side."""
         return self.clearance.array, self.clearance.object
 
     @property

@@ -38,12 +38,12 @@ class ComparedGap(ABC):
     @property
     @abstractmethod
     def between(self) -> tuple[str, str]:
-        """What is on either side."""
+        """The items on either side."""
 
     @property
     @abstractmethod
     def provided_m(self) -> float:
-        """What is there [m]."""
+        """Provided separation [m]."""
 
     @property
     def demand_capacity(self) -> float:
@@ -67,7 +67,7 @@ class ComparedGap(ABC):
         return array_id in self.between
 
     def across_from(self, array_id: str) -> str:
-        """Return what is on the other side of the gap."""
+        """Return the item on the other side of the gap."""
         first, second = self.between
         return first if second == array_id else second
 
@@ -90,7 +90,7 @@ _KINDS = {
 def neighbor_across(
     data: ProjectInput, rules: RuleSet, near: Array, across: Array | RoofObject
 ) -> tuple[Neighbor, float]:
-    """Return what is across a gap, and the importance factor of the separation."""
+    """Return the item across a gap, and the importance factor of the separation."""
     if isinstance(across, Array):
         neighbor = Neighbor.LIKE if are_alike(near, across) else Neighbor.UNLIKE
     else:

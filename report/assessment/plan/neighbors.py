@@ -109,12 +109,12 @@ class PlanNeighbor(ComparedGap):
 
     @property
     def between(self) -> tuple[str, str]:
-        """What is on either side."""
+        """The items on either side."""
         return self.array, self.other
 
     @property
     def provided_m(self) -> float:
-        """What is there in plan [m]."""
+        """Separation on the plan [m]."""
         return self.gap_m
 
     @property
@@ -129,7 +129,7 @@ class PlanNeighbor(ComparedGap):
 
     @property
     def cover(self) -> Cover:
-        """How its clearances cover it, if it is listed."""
+        """Coverage by its clearances, if it is listed."""
         if not self.given:
             return Cover.SHORT if self.is_short else Cover.SUFFICIENT
         if self.contradictions:
@@ -193,7 +193,7 @@ def plan_pairs(
     addresses: Mapping[Place, str],
     required: Callable[[PlanNeighbor], tuple[float, str]],
 ) -> tuple[PlanNeighbor, ...]:
-    """Return each array beside each other shape in plan, with the separation [m] it requires."""
+    """Return each array with each other shape in plan, and the separation [m] required."""
     pairs = [(near, *required(near)) for near in _pairs(data, reaches, addresses)]
     return tuple(
         near if math.isnan(value_m) else replace(near, required_m=value_m, mark=mark)

@@ -100,7 +100,7 @@ def _ring_faults(outline: OutlineRows, is_us: bool) -> Iterator[Finding]:
 
 
 def spot(point: Point, is_us: bool) -> str:
-    """Return a point of the plan in words."""
+    """Return a point of the plan as text."""
     x, y = (pair(value, Quantity.PLAN, is_us) for value in point)
     return f"x {x}, y {y}"
 

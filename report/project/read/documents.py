@@ -66,7 +66,7 @@ def path_beside(
 
 
 def _as_spelled(path: Path) -> Path:
-    """Return a path; where there is no such file, the one beside it whose name looks the same."""
+    """Return a path; if there is no such file, the one next to it with a similar-looking name."""
     if path.exists():
         return path
     # macOS writes the accent of a letter as a character of its own; Excel does not.

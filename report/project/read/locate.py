@@ -270,7 +270,7 @@ def table_area(book: OpenBook, section: SheetSection) -> TableArea | None:
 
 
 def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPosition:
-    """Return the cell of a single field by name, or else beside its label, or raise InputError."""
+    """Return the cell of a single field by name, or else next to its label, or raise InputError."""
     position = _position(book, section, entry)
     if position is None:
         raise InputError(
@@ -281,7 +281,7 @@ def find_cell(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
 
 
 def beside(book: OpenBook, section: SheetSection) -> Mapping[str, list[CellPosition]]:
-    """Return the cells with content beside the labels of each field on the sheets of a block."""
+    """Return the cells with content next to the labels of each field on the sheets of a block."""
     fields = fields_by_label(section)
     by_field: dict[str, list[CellPosition]] = {}
     for position, label in _labels(book, section):
@@ -337,7 +337,7 @@ def _position(book: OpenBook, section: SheetSection, entry: Entry) -> CellPositi
 def _found(
     book: OpenBook, section: SheetSection, field: str, names: Set[str]
 ) -> CellPosition | None:
-    """Return the cell that has the name of a field, or else is beside one of some labels."""
+    """Return the cell that has the name of a field, or else is next to one of some labels."""
     named = _named(book, section.cell_name(field))
     if named:
         return named

@@ -74,7 +74,7 @@ def _unit_of(sheet: Sheet, place: Place) -> tuple[str, float]:
 
 
 def cells(sheet: Sheet, typed: Mapping[Place, Typed]) -> dict[CellPosition, Typed]:
-    """Return what to write into which cells of the file."""
+    """Return the values to write, by cell of the file."""
     values = {}
     for place, value in typed.items():
         title, _, cell = sheet.addresses[place].rpartition("!")

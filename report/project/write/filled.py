@@ -153,7 +153,7 @@ class WorkbookChange:
 
     @cached_property
     def sheet_before(self) -> Sheet:
-        """What was read from the workbook as it was."""
+        """The data read from the workbook before the change."""
         return read_book(self.before)
 
     @property
