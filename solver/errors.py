@@ -28,7 +28,7 @@ class Problem:
     @classmethod
     def of(cls, line: str) -> Problem:
         """Return the problem of a text `found; remedy`."""
-        # At the first semicolon: a remedy may have others.
+        # Split at the first semicolon: the remedy may contain more.
         fault, _, remedy = line.partition("; ")
         return cls(fault, remedy)
 

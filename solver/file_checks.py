@@ -77,8 +77,8 @@ def within(folder: Path, name: str) -> Path:
     InputError
         If it leads out of the folder or to a device, or would be another name on Windows.
     """
-    # Zips of Windows programs may separate folders with a backslash, which Linux takes for a
-    # letter.
+    # Some Windows programs write zips with backslashes between folders; on Linux a backslash is an
+    # ordinary character.
     parts = name.replace("\\", "/").split("/")
     if wrong := _wrong(name, parts):
         raise InputError(f"'{printable(name)}' {wrong}")
@@ -87,7 +87,8 @@ def within(folder: Path, name: str) -> Path:
 
 def _wrong(name: str, parts: Sequence[str]) -> str:
     """Return the problem with a path and its remedy; empty if there is none."""
-    # A name of bytes that are no UTF-8 has surrogates in Python, which would not encode otherwise.
+    # A file name whose bytes are not UTF-8 contains surrogates in Python; a strict encoder would
+    # raise an error.
     longest = max(len(part.encode(errors="surrogatepass")) for part in parts)
     if len(name) > _MOST_NAME or longest > _MOST_BYTES:
         return "is too long; shorten its name"

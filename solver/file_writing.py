@@ -47,8 +47,8 @@ def write_all(files: Mapping[str, bytes], folder: Path) -> None:
     InputError
         If one cannot be written, or has no plain place.
     """
-    # They end in the reverse order: what was replaced is put back, then the files with random names
-    # are removed, and only then the folders, which are empty again.
+    # The stacks close in reverse order: replaced files are restored, then temporary files are
+    # removed, and last the new folders, which are empty by then.
     with ExitStack() as added, ExitStack() as sweep, ExitStack() as undo:
         target = folder
         try:
@@ -60,12 +60,12 @@ def write_all(files: Mapping[str, bytes], folder: Path) -> None:
                 check_length(part)
                 add_folder(target.parent, added)
                 parts.append(part)
-                # "x" opens nothing that is there already, so no link that someone put there is
+                # "x" fails if the name exists, so a link placed there by someone else is never
                 # followed.
                 with parts[-1].open("xb") as file:
                     file.write(content)
                     file.flush()
-                    # Else a power failure may leave the name of the file without its content.
+                    # Without it, a power failure could leave the new name with no content.
                     os.fsync(file.fileno())
             # Only now, with every content on disk: a disk that is full changes nothing.
             for part, name in zip(parts, files, strict=True):
@@ -76,7 +76,7 @@ def write_all(files: Mapping[str, bytes], folder: Path) -> None:
             raise InputError(
                 f"{target}: cannot be written ({error.strerror}){close}. No file was changed"
             ) from error
-        # Nothing is undone any more; `sweep` still removes the copies of what was replaced.
+        # Success: nothing is undone. `sweep` still removes the backups.
         undo.pop_all()
         added.pop_all()
 
@@ -138,11 +138,12 @@ def _replace(part: Path, target: Path, sweep: ExitStack, undo: ExitStack) -> Non
         if not backup.exists():
             shutil.copy2(target, backup)
         undo.callback(_put_back, backup, target, part)
-        # A new file has the permissions of the process, not those of the file that it replaces.
+        # A new file has the default permissions of the process, not those of the file that it
+        # replaces.
         part.chmod(target.stat().st_mode & 0o777)
     else:
         undo.callback(_persist, target.unlink, True)
-    # Not `os.rename`, which refuses on Windows to replace a file.
+    # Not `os.rename`, which does not replace an existing file on Windows.
     _persist(os.replace, part, target)
 
 
@@ -157,5 +158,5 @@ def _persist(act: Callable[..., object], *arguments: object) -> None:
             act(*arguments)
             return
         time.sleep(pause_s)
-    # The last try is outside of the loop, so that its error is raised.
+    # The last attempt is outside the loop, so that its error is raised.
     act(*arguments)

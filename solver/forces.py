@@ -55,7 +55,7 @@ def components(scene: Scene) -> tuple[Floats, Floats, Floats]:
     return scene.ax_mps2, across, up
 
 
-# Runs of a suite have few lengths: their zeros are made once, not for every run.
+# The runs of a project have few different lengths, so the zeros are created once per length.
 @lru_cache(8)
 def _still(size: int) -> Floats:
     still = np.zeros(size)

@@ -39,8 +39,8 @@ SAME_VELOCITY = 0.05
 _LEAST_EXPONENT = 0.1
 # Less than the last digit of a reported coefficient: the runs then show one coefficient.
 _LEAST_DROP = 1e-4
-# Rates at which the sum of squares is computed first: golden section finds a minimum of its
-# interval, not the least of several, and is given two cells of this grid.
+# Rates at which the sum of squares is evaluated first. Golden section finds a local minimum, which
+# need not be the smallest one, so it searches only the two cells around the best grid point.
 _GRID = 400
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 # 0.618^70 is 2e-15: to rounding error.
@@ -87,7 +87,7 @@ class Series:
     @property
     def velocity_mps(self) -> float:
         """Largest velocity that a run reports [m/s]; NaN for none."""
-        # NaN is taken out before: `max` passes over it or returns it, depending on where it stands.
+        # NaN is removed first: the result of `max` with a NaN depends on its position.
         reported = (run.velocity_mps for run in self.runs if not math.isnan(run.velocity_mps))
         return max(reported, default=math.nan)
 
@@ -96,8 +96,9 @@ class Series:
         """The runs at each velocity, from the lowest; last those that report no velocity."""
         groups: list[list[FrictionRun]] = []
         for run in sorted(self.runs, key=_nan_is_last):
-            # Compared with the first of its group, not the last: a series of velocities that rise
-            # by less than 5% each would be one group. Runs without a velocity are one: inf <= inf.
+            # Compared with the first run of the group, not the last; otherwise velocities that each
+            # increase by less than 5% would all be one group. Runs without a velocity form one
+            # group: inf <= inf.
             if groups and _nan_is_last(run) <= (1.0 + SAME_VELOCITY) * _nan_is_last(groups[-1][0]):
                 groups[-1].append(run)
             else:
@@ -145,7 +146,7 @@ def governing(choices: Sequence[Series], text: str) -> Series:
     named = []
     for choice in choices:
         report = re.escape(choice.report)
-        # As a word of its own: report 12 is not named by "report 123".
+        # As a whole word: "report 123" does not name report 12.
         if report and re.search(rf"(?<!\w){report}(?!\w)", text, re.IGNORECASE):
             named.append(choice)
     return min(named or choices, key=lambda choice: choice.mean)
@@ -184,7 +185,8 @@ def _fitted(pairs: tuple[tuple[float, float], ...]) -> FittedLaw | None:
         return None
     v, mu = np.array(pairs).T
     low, high = math.log(_LEAST_EXPONENT / float(v.max())), math.log(MOST_RATE_S_PER_M)
-    # All velocities below 1e-4 m/s: even at the highest rate the law is a straight line over them.
+    # All velocities are below 1e-4 m/s: even at the highest rate the law is nearly a straight line
+    # over that range.
     if not low < high:
         return None
     grid = np.linspace(low, high, _GRID)
@@ -193,7 +195,7 @@ def _fitted(pairs: tuple[tuple[float, float], ...]) -> FittedLaw | None:
     fit = _regressed(math.exp(x), v, mu)
     # At zero velocity the exponential is 1.
     slow = fit.fast - fit.drop
-    # A rate at an end of the grid is one of the search, not of the runs.
+    # A rate at an end of the grid is determined by the search range, not by the runs.
     is_inside = 0 < best < _GRID - 1 and abs(fit.drop) > _LEAST_DROP
     return FittedLaw(
         law=Friction(mu_slow=slow, mu_fast=fit.fast, rate_s_per_m=math.exp(x), mu_static=slow),
@@ -211,7 +213,7 @@ class _Regression(NamedTuple):
 def _regressed(rate: float, v: NDArray[np.float64], mu: NDArray[np.float64]) -> _Regression:
     """Return the regression of mu = fast - drop exp(-rate v) for a given rate."""
     decay = np.exp(-rate * v)
-    # The sum of `off` is zero: its product with mu is that with mu less its mean.
+    # The sum of `off` is zero, so the mean of mu need not be subtracted below.
     off = decay - decay.mean()
     spread = float(off @ off)
     # Every velocity beyond the decay: one constant fits as well as any law.

@@ -128,12 +128,12 @@ class SlideResult:
         return isinstance(other, SlideResult) and self._values == other._values
 
     def __hash__(self) -> int:
-        # By the same values as equality: a NaN has a hash by its identity.
+        # Computed from the same values as equality: the hash of a NaN depends on its identity.
         return hash(self._values)
 
     @property
     def _values(self) -> tuple[object, ...]:
-        # Only NaN differs from itself; None equals itself wherever it stands.
+        # NaN is the only value that differs from itself; it is compared as None.
         return tuple(None if value != value else value for value in astuple(self))
 
 
@@ -393,7 +393,7 @@ class Motion(Accelerations):
 
     def scene(self, orientation: Orientation, *, slope_rad: float, friction: Friction) -> Scene:
         """Return the scene of one run: this motion in an orientation, on a slope with friction."""
-        # The cross-slope component keeps its sign: reversed it would mirror the motion.
+        # The cross-slope component keeps its sign: reversing it would only mirror the motion.
         components, along_index = (self.ax_mps2, self.ay_mps2), int(orientation.is_transverse)
         along = (components if orientation.polarity > 0 else self._reversed)[along_index]
         return Scene(

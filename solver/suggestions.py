@@ -15,7 +15,7 @@ _MOST_LISTED = 2_000
 _MOST_COMPARED = 50_000
 """Pairs of letters that are compared for one name: a table may have thousands of wrong ones."""
 
-# So that A1, a-01 and "A 1" are one name.
+# A1, a-01 and "A 1" are treated as one name.
 _IGNORED = re.compile(r"[\s_-]|(?<!\d)0+(?=\d)")
 _LOCKS = ("~$", ".~lock.")  # of workbooks that a program has open
 
@@ -30,12 +30,12 @@ def nearest(value: str, names: Iterable[str], taken: Collection[str] = ()) -> st
     key, plain = _plain(value), {name: _plain(name) for name in names}
     close = [name for name, plain_name in plain.items() if plain_name == key]
     if not close:
-        # False sorts before True: the names that begin with the same two characters come first, and
-        # the limit on what is compared leaves out the others.
+        # False sorts before True: names that begin with the same two characters come first, so the
+        # limit on comparisons drops the others.
         alike = sorted(plain, key=lambda name: plain[name][:2] != key[:2])
         costs = accumulate(len(key) * len(name) for name in alike)
         near = [name for name, cost in zip(alike, costs, strict=True) if cost <= _MOST_COMPARED]
-        # Not the three that it returns by default: of several that are as near none is suggested.
+        # All matches, not the default of three: if several are equally close, none is suggested.
         matches = difflib.get_close_matches(key, {plain[name] for name in near}, n=_MOST_LISTED)
         ratios = {
             plain_name: difflib.SequenceMatcher(None, plain_name, key).ratio()
@@ -57,8 +57,8 @@ def meant(path: Path) -> str:
     The first missing part of the path is compared with the contents of its folder.
     """
     try:
-        # From the file up to the root, so the last one that is missing is the first on the way
-        # down.
+        # The list runs from the file up to the root, so the last missing entry is the first missing
+        # part of the path.
         lost = [entry for entry in (path, *path.parents) if not entry.exists()][-1]
         names = [entry.name for entry in islice(lost.parent.iterdir(), _MOST_LISTED)]
         near = nearest(lost.name, [name for name in names if not name.startswith(_LOCKS)])

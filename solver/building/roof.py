@@ -197,7 +197,7 @@ def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
     # Gamma_i phi_i (A_i - a_ground)
     parts -= a[:, None]
     parts *= building.roof_factors
-    # With every mode, against which what is left out is measured.
+    # The peak with all modes, to which the neglected modes are compared.
     peak = float(np.abs(a + parts.sum(axis=1)).max())
     larger = np.maximum(parts.max(axis=0), -parts.min(axis=0))
     # Column n is the sum of all modes from n on. No column after the modes included is over the
@@ -206,7 +206,7 @@ def _cut(ground: Floats, dt_s: float, building: Building, share: float) -> _Cut:
     left_out = np.append(np.maximum(remaining.max(axis=0), -remaining.min(axis=0)), 0.0)
     over = np.flatnonzero(left_out > share * peak)
     n_modes = int(over[-1]) + 1 if over.size else 0
-    # A record of zeros has no peak, and nothing of it is left out.
+    # A record of zeros has no peak, and its shares are zero.
     per = 1.0 / peak if peak > 0.0 else 0.0
     return _Cut(n_modes, read_only(larger * per), float(left_out[n_modes]) * per)
 

@@ -87,7 +87,7 @@ def story_modes(alpha0: float, stories: int) -> Modes:
         )
     # Equal floor masses: eigenvectors of K itself, of length 1, so Gamma = sum of phi.
     squares, shapes = np.linalg.eigh(floor_stiffness(alpha0, stories))
-    # An eigenvector may have either sign; in this product the sign cancels.
+    # An eigenvector may have either sign, which cancels in this product.
     factors = shapes.sum(axis=0) * shapes[-1]
     return Modes(period_ratios=np.sqrt(squares[0] / squares), factors=factors[:, None])
 
@@ -245,7 +245,7 @@ def building_of_periods(
     modes = story_modes(alpha0, stories) if stories else beam_modes(alpha0, BEAM_MODES)
     ratios = modes.period_ratios
     lowest = np.array(periods_s[: ratios.size], dtype=np.float64)
-    # Higher modes keep the ratio of the beam to the last period given, not to the first.
+    # The periods of higher modes are scaled from the last period given, not from the first.
     periods = np.append(lowest, lowest[-1] * ratios[lowest.size :] / ratios[lowest.size - 1])
     zeta = np.full(periods.size, float(damping[-1]))
     first = np.array(damping[: periods.size], dtype=np.float64)

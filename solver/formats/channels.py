@@ -93,7 +93,7 @@ def motion_file(
             samples = "1 sample" if count == 1 else f"{count} samples"
             raise InputError(f"{source.name}: found {samples}; enter at least 2")
         _check_size(source, channel)
-        # A copy that nobody can write to, so that the bounds of its samples may be kept with it.
+        # A read-only copy, so that the bounds of its samples can be cached.
         a_mps2 = own(channel.a_mps2)
         # A constant is no shaking with gravity in it.
         shakes = has_gravity(a_mps2) and np.ptp(a_mps2) > 0.0
@@ -113,7 +113,7 @@ def motion_file(
         if 0.0 < below * _OTHER_UNIT <= peak:
             times = f"{peak / below:.0f} times the peaks of the others"
             all_notes.append(f"{name} reaches {times}: is it in the same unit?")
-    # A logger that is mounted at an angle has a part of gravity in each component, 1 g in all.
+    # Each component of a tilted logger contains a part of gravity; their vector sum is 1 g.
     mean = np.array([record.a_mps2.mean() for record in records])
     if (
         len(mean) == 3
@@ -128,7 +128,7 @@ def motion_file(
         name=source.name,
         format=form,
         channels=tuple(records),
-        # Equal notes once, in their order: a set has none.
+        # Removes duplicates but keeps the order, unlike a set.
         notes=tuple(dict.fromkeys(all_notes)),
         start=start or _start(source),
     )
@@ -160,7 +160,7 @@ def _start(source: Source) -> dt.datetime | None:
 
 def _check_size(source: Source, channel: Record) -> None:
     """Raise if a step or a value is impossible for an accelerogram: wrong units or scale."""
-    # Before the peak: a code such as 9999 is told as a code, not as 9999 g.
+    # Before the check of the peak, so that 9999 is reported as a code and not as 9999 g.
     check_gaps(source.name, channel.a_mps2)
     check_peak(source.name, channel.a_mps2)
     if not TIME_STEP.has(channel.dt_s):
@@ -202,7 +202,8 @@ def centered_peak_notes(
 ) -> tuple[str, ...]:
     """Same as `peak_notes`, for a stated peak that may exclude the mean."""
     centered = a_mps2 - a_mps2.mean() if len(a_mps2) else a_mps2
-    # Whichever is nearer: K-NET states the peak without the mean, others that of the values.
+    # Whichever is closer: K-NET states the peak with the mean removed, other networks the peak of
+    # the values.
     alike = min(
         (a_mps2, centered),
         key=lambda values: abs(float(np.abs(values).max(initial=0.0)) - abs(stated_mps2)),
@@ -277,7 +278,7 @@ def recorder_notes(source: Source, samples: int) -> tuple[str, ...]:
 def offset_notes(a_mps2: Floats) -> tuple[str, ...]:
     """Note an offset of uncorrected values: its integral over the record is a velocity."""
     mean, peak = float(np.mean(a_mps2)), float(np.abs(a_mps2).max())
-    # An offset of 0.001 g ends a record of 60 s with a velocity of 0.6 m/s.
+    # An offset of 0.001 g gives a velocity of 0.6 m/s at the end of a 60 s record.
     if abs(mean) <= _OFFSET * peak:
         return ()
     return (

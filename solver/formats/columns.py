@@ -64,7 +64,7 @@ def counting(table: Floats) -> list[int]:
 
 def pairs(values: Floats, per_line: int) -> Floats | None:
     """Times and values, shape (n, 2), where nearly every second value across lines rises evenly."""
-    # Two numbers a line are two columns already.
+    # Two numbers per line are read as two columns.
     if per_line < 4 or per_line % 2 or values.size % 2 or values.size < 2 * _MANY:
         return None
     table = values.reshape(-1, 2)
@@ -88,8 +88,8 @@ def remedy(table: Floats) -> str:
         deletion = f"column {which} contains line numbers: delete it"
         if len(counts) > 1:
             deletion = f"columns {which} contain line numbers: delete them"
-        # What is advised must do: the rest of the table is judged as it will be without that
-        # column.
+        # The advice must work: the remaining table is evaluated as it will be without those
+        # columns.
         remaining = np.delete(table, counts, axis=1)
         then = remedy(remaining) if remaining.shape[1] > 1 else "enter the time step dt"
         return f"{deletion}; then {then}"

@@ -36,7 +36,7 @@ _MAX_REMARKS = 200
 _LETTERS = re.compile(r"\d+[a-z]{2}", re.ASCII | re.IGNORECASE)
 # As MATLAB prints it, also behind a comment sign.
 _FACTOR = re.compile(rf"{NUMBER.pattern}\s*[*x×]", re.ASCII)
-# 10:20:30, 2024-01-02 or 31.12.2024: three numbers apart by one and the same mark.
+# 10:20:30, 2024-01-02 or 31.12.2024: three numbers separated by the same mark.
 _CLOCK = re.compile(r"\d+([-/:.])\d+\1\d+(?:[:.,T ].*)?", re.ASCII)
 
 
@@ -94,8 +94,8 @@ class Layout:
         heading, units = self.headings[column], self.source.units
         size = unit_size(heading.unit)
         for index, line in self.remarks:
-            # Only where the line says "unit": a comment such as "peak 0.3 g" is none of the
-            # columns.
+            # Only if the line contains "unit": a comment such as "peak 0.3 g" does not state the
+            # unit of a column.
             sizes = {unit_size(unit): unit for unit in phrases.stated_units(line)}
             if not sizes or size in sizes:
                 continue
@@ -125,7 +125,7 @@ def laid_out(source: Source) -> Layout:
     separator = separator_of(content)
     fields = [field.strip() for field in content.split(separator)]
     _check_first(source, first, fields)
-    # A comment may state a unit or a step as well as a line of text does.
+    # Comments may state a unit or a step, as lines of text do.
     plain = ((index, line.replace("#", " ").strip()) for index, line in enumerate(lines[:first]))
     remarks = list(islice((row for row in plain if row[1]), _MAX_REMARKS))
     width = len(fields)
@@ -143,7 +143,7 @@ def laid_out(source: Source) -> Layout:
         headings=headings,
         heading_index=place,
         misfit=misfit,
-        # The line of the headings states the units of its columns, not of the file.
+        # The heading line states units of its columns, not of the file.
         remarks=[remark for remark in remarks if not headings or remark[0] != place],
     )
 

@@ -220,7 +220,8 @@ def dated_table(source: Source, rows: Sequence[tuple[int, list[str]]], width: in
 
 def separated(text: str) -> list[str]:
     """Fields between blanks, between commas beside points, or before a sign that fills a field."""
-    # A comma beside points separates; alone it may be a decimal comma, and is left to be refused.
+    # In text that has decimal points, a comma is a separator. Otherwise it may be a decimal comma,
+    # which is rejected later.
     if "," in text and "." in text:
         text = text.replace(",", " ")
     return _TOUCHING.sub(" ", text).split()
@@ -240,7 +241,7 @@ def printed(text: str, index: int) -> Stated:
     mantissa, _, exponent = text.strip().lower().partition("e")
     decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
     # A whole number is taken as exact.
-    # Beyond 300 decimals the power of ten is no float.
+    # With 300 or more decimals, the power of ten may overflow.
     rounding = 0.5 * 10.0**-decimals if "." in mantissa and abs(decimals) < 300 else 0.0
     return Stated(value=float(text), rounding=rounding, index=index)
 
@@ -295,7 +296,7 @@ def _values(
 ) -> Floats:
     """Values of the fields of rows; the problems are looked for where one may be no number."""
     try:
-        # Field by field, without a list of them: a file may have 64 MB.
+        # One field at a time, without a list of all fields: a file may have 64 MB.
         fields = chain.from_iterable(split(row.translate(_FORTRAN)) for row in rows)
         values = np.fromiter(map(float, fields), np.float64)
     except ValueError:
@@ -308,7 +309,7 @@ def _values(
 
 
 def _problem(field: str) -> str:
-    # With the D of the file in the message, not the E by which it is read.
+    # The message shows the field as in the file, with a D exponent instead of an E.
     return field_problem(field) if field_problem(field.translate(_FORTRAN)) else ""
 
 

@@ -79,8 +79,8 @@ _STATES_UNITS = re.compile(r"\bunits?\b", re.IGNORECASE)
 _IN_PROSE = re.compile(r"\bin\s+([^\s,;()\[\]]+)", re.IGNORECASE)
 
 # Also `0,005`, and `1/200` of a second.
-# Possessive, as ++ and *+ here and below: a match never goes back, and its time grows as the text
-# does, which `tests/test_patterns.py` holds for every pattern.
+# The quantifiers ++, *+ and ?+ are possessive: they prevent backtracking, so that the time of a
+# match is proportional to the length of the text (checked by `tests/test_patterns.py`).
 _VALUE = r"([+-]?(?:\d++(?:\.\d*+|,\d++)?+|\.\d++)(?:[eE][+-]?\d++)?(?:/\d++)?)"
 _HERTZ = r"(k?hz|sps|samples?(?: per |/)s(?:ec|econd)?)\b"
 _RATE = re.compile(
@@ -104,7 +104,7 @@ _FACTOR = re.compile(
 _GROUPED = re.compile(r"[1-9]\d{0,2},\d{3}", re.ASCII)  # one, or a thousand
 _COUNT = re.compile(
     r"\b(?:(?:number|no\.?) of (?:data )?(?:points|samples|values)|npts)\b"
-    # Not the 4 of 4,000.
+    # The 4 of 4,000 is not a count.
     r"\s*+(?:[:=]\s*)?(\d{1,9})\b(?![.,]\d)",
     re.ASCII | re.IGNORECASE,
 )

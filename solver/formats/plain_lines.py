@@ -14,7 +14,7 @@ from itertools import chain, islice
 from solver.formats.numbers import DECIMAL_COMMA, NUMBER
 from solver.formats.phrases import Kind, parse
 
-# The first line by which Excel is told the separator.
+# The line at the top of a CSV file that tells Excel the separator.
 _SEP = re.compile(r'"?sep=([,;\t| ])"?', re.IGNORECASE)
 _COMMENT = re.compile(r"^\s*(?:%|//|!)")
 _QUOTED = re.compile(r'"[^"]*" *([,;\t|])?')
@@ -35,7 +35,7 @@ def plain_lines(lines: Sequence[str]) -> list[str]:
     first = next((i for i, line in enumerate(plain) if line.strip()), 0)
     separator = ""
     if plain and (match := _SEP.fullmatch(plain[first].strip(" "))):
-        # Blank, not removed, as every line here: messages count the lines of the file.
+        # Blanked, not removed: messages state line numbers of the file.
         separator, plain[first] = match[1], ""
     near = list(islice((line for line in plain if _is_row(line)), _SEEN))
     if any('"' in line for line in near):
@@ -44,7 +44,8 @@ def plain_lines(lines: Sequence[str]) -> list[str]:
         plain = [_unquoted(line, mark) if _is_row(line) else line for line in plain]
     elif separator == "|":
         plain = [line.replace("|", ";") if _is_row(line) else line for line in plain]
-    # The marks at the ends of lines first: they would be an empty column of the row of units.
+    # The separators at the ends of lines are removed first; otherwise the row of units would have
+    # an additional empty column.
     plain = _without_decimal_commas(_without_units_row(_without_last_marks(plain)))
     return _with_count_and_step(plain)
 
@@ -107,7 +108,7 @@ def _with_count_and_step(lines: list[str]) -> list[str]:
     (index, content), (_, second) = [*islice(rows_of(lines, start), 2), (0, ""), (0, "")][:2]
     match = _COUNT_AND_STEP.fullmatch(content)
     fields = second.split(separator_of(second))
-    # The count must be that of the rows below: two numbers alone may be the first row.
+    # The count must equal the number of rows below; otherwise the two numbers may be the first row.
     if not match or len(fields) != 2 or int(match[1]) != len([*rows_of(lines, index + 1)]):
         return lines
     # Times do not fall from their count.

@@ -30,7 +30,7 @@ class Format(Protocol):
         """Read all channels; raises `InputError` with every problem."""
 
 
-# By name: the core does not import its extras, and each format of a network is one.
+# Imported by name: the core must not import its extras, such as the formats of networks.
 FORMATS: tuple[Format, ...] = (*import_module("solver.formats.networks").NETWORKS, text)
 """All formats, asked in this order: text, which accepts every file, last."""
 
@@ -84,9 +84,9 @@ def read_motion_file(
     source = open_source(
         Path(path), units=units, dt_s=dt_s, values_per_line=values_per_line, response=str(response)
     )
-    # There is always one: text, the last, takes every file.
+    # There is always one: `text`, the last, accepts every file.
     reader = next(form for form in FORMATS if form.recognizes(source))
-    # A package attaches and hashes what was read, whatever the file holds by then.
+    # A package attaches and hashes these bytes, even if the file has changed since.
     return replace(reader.read(source), content=source.content)
 
 

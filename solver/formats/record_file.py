@@ -82,7 +82,7 @@ def distinct(names: Iterable[str]) -> list[str]:
     taken: set[str] = set()
     for i, name in enumerate(names, start=1):
         plain = " ".join(name.split()) or f"channel {i}"
-        # One more than the names that may be taken, so one of them is free.
+        # One more candidate than there are names in use, so one of them is free.
         candidates = (plain, *(f"{plain} ({k})" for k in range(2, i + 2)))
         named.append(next(text for text in candidates if _folded(text) not in taken))
         taken.add(_folded(named[-1]))

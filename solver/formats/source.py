@@ -202,7 +202,7 @@ def open_source(
         problems.append(
             f"{name}: time step dt is {quoted(dt_s)}; enter a number of seconds above 0"
         )
-    # Not isinstance: True is an int, and would be one value a line.
+    # Not isinstance: True is an int and would mean one value per line.
     if type(values_per_line) is not int or values_per_line < 0:
         problems.append(f"{name}: values per line is {quoted(values_per_line)}; enter 1, 2, ...")
     if units and response:
@@ -232,7 +232,7 @@ def _bytes(path: Path) -> bytes:
     name = _name(path)
     try:
         if not path.exists():
-            # Windows says of a path that is too long only that it is not there.
+            # Windows reports a path that is too long as not found.
             check_length(path)
             raise InputError(f"{name}: no such file; {meant(path) or 'use the path of a record'}")
     except OSError as error:
@@ -241,11 +241,11 @@ def _bytes(path: Path) -> bytes:
 
 
 def _lines(name: str, data: bytes) -> list[str]:
-    # The minus sign of typesetting, as web pages and word processors write it.
+    # The typographic minus sign of web pages and word processors.
     text = _decode(name, data).replace("\u2212", "-")
     if "\r" in text:
         text = _LINE_END.sub("\n", text)
-    # Counted before the text is split: a list of many millions of lines would fill the memory.
+    # Counted before the text is split: a list of many millions of lines could exhaust the memory.
     count = text.count("\n") + 1
     if count > MAX_LINES:
         raise InputError(f"{name}: found {count:,} lines; enter at most {MAX_LINES:,}")
@@ -269,12 +269,12 @@ def _decode(name: str, data: bytes) -> str:
             return data.decode("utf-16")
         plain = data.rstrip(b"\x00" + _END_OF_TEXT)
         if not _CONTROL.search(plain) and (plain or not data.startswith(b"\x00")):
-            # With or without the mark of byte order that programs of Windows write.
+            # With or without the byte order mark that Windows programs write.
             return plain.decode("utf-8-sig")
     except UnicodeDecodeError:
         data = data.rstrip(_END_OF_TEXT)
         if not _CONTROL.search(data):
-            # It has a character for each byte, so this never fails; only letters of headings may be
-            # others.
+            # Latin-1 has a character for every byte, so this never fails; at worst, accented
+            # letters in headings are wrong.
             return data.decode("latin-1")
     raise InputError(f"{name}: not a text file; {likely_bytes(data) or 'use text or CSV'}")

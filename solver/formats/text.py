@@ -92,7 +92,7 @@ def read(source: Source) -> MotionFile:
     several = len(taken) > 1
     channels = [
         Record(
-            # A single component has the name of its file, not one such as acc_g.
+            # A single component is named for its file, not for a heading such as acc_g.
             name=layout.headings[i].name if several else "",
             dt_s=dt_s,
             a_mps2=values * layout.scale(i),
@@ -147,7 +147,7 @@ def _read_fast(layout: Layout) -> Floats | None:
         table: Floats = np.loadtxt(lines, delimiter=layout.separator, ndmin=2)
     except ValueError:
         return None
-    # NaN fails the comparison, too, so that such a file is read again to name its lines.
+    # NaN also fails the comparison; such a file is read again, row by row, to report its lines.
     return table if table.shape[1] == layout.width and (np.abs(table) < BEYOND).all() else None
 
 
@@ -183,7 +183,7 @@ def _shaped(layout: Layout) -> Floats | None:
     is_headed = bool(heading) and len(phrases.words(heading, layout.separator)) == width
     if len(widths_below) < 2:
         return None
-    # The last line across may be short; all between the first and the last are of one width.
+    # Values across the lines: only the last line may be short, all others have the same width.
     *middle, (last, last_width) = widths_below
     widths = {numbers for _, numbers in middle}
     if not is_headed and widths == {width} and last_width < width:
@@ -207,7 +207,7 @@ def _shaped(layout: Layout) -> Floats | None:
 def _across(layout: Layout, due: int) -> Floats:
     """Return values across the lines, as many in each but the last: one column, or pairs."""
     source = layout.source
-    # Programs that write lists may end a line with the separator.
+    # Some programs end each line with the separator.
     rows = [(i, layout.fields(row.rstrip(",;"))) for i, row in layout.rows()]
     raise_any(
         f"{source.at(index)}: found {len(fields)} values; enter {due} as in every line but the last"
@@ -233,7 +233,7 @@ def _check_count(layout: Layout, table: Floats) -> None:
     """Compare the number of rows with the number of samples that a remark states."""
     samples = len(table)
     # Of pairs, times may be counted as well.
-    # -1 is that of a line that states none.
+    # -1: the line does not state a count.
     counts = {-1, samples, table.size if _pairs_in_line(layout, table) else samples}
     for index, line in layout.remarks:
         stated = phrases.count_in(line)
@@ -319,7 +319,7 @@ def _has_times(layout: Layout, table: Floats) -> bool:
     kinds = [heading.kind for heading in layout.headings]
     if Kind.TIME in kinds[1:]:
         place = kinds.index(Kind.TIME, 1) + 1
-        # Two tables that were pasted side by side have their times twice.
+        # Two tables pasted side by side contain the times twice.
         if kinds[0] is Kind.TIME and np.array_equal(table[:, 0], table[:, place - 1]):
             raise InputError(
                 f"{layout.source.name}: found times in columns 1 and {place}: {SIDE_BY_SIDE}"
@@ -330,6 +330,7 @@ def _has_times(layout: Layout, table: Floats) -> bool:
     if not kinds or kinds[0] is Kind.TIME:
         return True
     # If no heading mentions time, the values decide.
+    # If a time step is given, a first column that does not rise is a component.
     rises = bool((np.diff(table[:, 0]) > 0.0).all())
     return kinds[0] is not Kind.ACCELERATION and (rises or math.isnan(layout.source.dt_s))
 
@@ -354,7 +355,7 @@ def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
     t_s = unit_s * table[:, 0]
 
     def line_of(row: int) -> int:
-        # Searched from the top each time: it is asked for the lines of messages alone.
+        # The search starts at the top each time, because it is needed only for messages.
         return next(islice(layout.rows(), row // in_line, None))[0]
 
     dt_s, columns, notes = sampled(source, t_s, columns, line_of, unit_s)
@@ -391,8 +392,8 @@ def _check_is_time(layout: Layout, table: Floats) -> None:
         return
     # Not the first fall: times that stand twice or out of order are told as times.
     falling = int((np.diff(times) <= 0.0).sum())
-    # Shaking falls at about every second step, times with faults at few: a quarter tells them
-    # apart.
+    # Accelerations decrease in about half of the steps, times with errors in a few; the threshold
+    # is a quarter.
     if 4 * falling > len(times) and 0 not in rising(table):
         raise InputError(
             f"{source.name}: found {table.shape[1]} columns without a heading, and the first is no"

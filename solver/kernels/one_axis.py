@@ -115,6 +115,7 @@ def minimum_normal(ax, az, x, z, dt, sn, cs, g, scale):
         first += 1
     if first == 0:
         return -most / g, 0.0
+    # -N is linear between these samples: it is zero at before / (before - after) of the interval.
     before, after = _net_driving(c, ax, az, first - 1), _net_driving(c, ax, az, first)
     return -most / g, (first - 1 + before / (before - after)) * dt
 
@@ -224,6 +225,7 @@ def _move(w, q_0, q_1, tau, dt, rate):
     if step < 0.0:
         return dt, h * (w + h * (0.5 * q + h * (r * SIXTH))), w + h * (q + 0.5 * r * h), peak
     # Time must advance even if the step is smaller than the rounding error of tau.
+    # 2.3e-16 is just above EPS, so that the product is a larger float.
     reached = tau + step if tau + step > tau else tau * (1.0 + 2.3e-16) + TINY
     return reached, step * (w + step * (0.5 * q + step * (r * SIXTH))), 0.0, peak
 
@@ -240,6 +242,7 @@ def _slide_on(c, ax, az, w, w_max, i, last, dt):
     while i < last:
         # The gain in speed is summed from zero every CHUNK samples, to keep its low-order digits.
         q_first, gained, total, end = q, 0.0, 0.0, min(i + CHUNK, last)
+        # `top` is the gain in speed beyond which the largest speed so far is exceeded.
         start, top = i, w_max - w
         while i < end:
             q_next = _net_driving(c, ax, az, i + 1)

@@ -4,7 +4,8 @@ The samples of `one_axis`, whose PRD is 4.94 mm, by the paper's method: 30.19 mm
 in each interval, 5.31 mm with 64; by linear acceleration 4.94 mm with 64.
 
 Never raises, knows no units but SI; numpy and numba only. Read `solver.rivals.methods` for a
-description of each, and `solver.kernels.one_axis` for the exact method.
+description of each, and `solver.kernels.one_axis` for the exact method. `follow_the_equations` in
+`tests/solver/kernels/test_rivals_kernel.py` is the paper's algorithm in plain Python.
 
 Letters, beside those of `one_axis`, along the slope and per unit mass, positive downslope:
     G, N     drive downslope and normal force (Eq. 6 with the vertical added)        [m/s2]
@@ -145,7 +146,7 @@ def slide_linear(ax, az, dt, sn, cs, mu, g, scale, substeps, history):
         r_drive, r_cap = (drive - drive_0) * share, (cap - cap_0) * share
         for j in range(substeps):
             drive_j, cap_j = drive_0 + j * r_drive, cap_0 + j * r_cap
-            # The paper's condition for stick: at rest, or reversed within the last sub-step.
+            # The paper's condition for sticking: at rest, or reversed within the last sub-step.
             reversed_ = w * w_before < 0.0
             n_stops += reversed_
             if (w == 0.0 or reversed_) and abs(drive_j) <= cap_j:
@@ -215,7 +216,8 @@ def slide_link(ax, az, dt, sn, cs, mu, g, scale, substeps, k, implicit, history)
     # In equilibrium with gravity alone; what it cannot hold stays unbalanced in `a`.
     force = min(max(g * sn, -mu * g * cs), mu * g * cs)
     x, a = force / k, drive - min(max(force, -cap), cap)
-    # What may still be dissipated: ENERGY times the energy available, less what was dissipated.
+    # Energy that may still be dissipated: ENERGY times the energy available, minus the energy
+    # dissipated so far.
     left = 0.5 * ENERGY * (a * a + cap * cap) / k
     s = w = s_max = s_min = t_peak = 0.0
     slip = n_stops = 0

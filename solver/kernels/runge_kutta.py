@@ -71,7 +71,7 @@ E8 = np.array(
      -0.022355307863886294)
 )  # fmt: skip
 E3 = B8.copy()
-# Less the weights of the step of order 3, bhh1 to bhh3 of the code DOP853.
+# Minus the weights of the third-order step, bhh1 to bhh3 in the code DOP853.
 E3[[0, 8, 11]] -= 0.2440944881889764, 0.7338466882816118, 0.022058823529411766
 C8 = A8.sum(axis=1)
 
@@ -308,8 +308,7 @@ def _error(order, h, y, k, new, rtol, atol):
                 high += E5[j] * k[j, m]
         far, near = far + (high / allowed) ** 2, near + (low / allowed) ** 2
     if order == 8:
-        # 1/2 is 1 / sqrt(4): SciPy's norm is the root of the mean of the squares of four
-        # components.
+        # 0.5 is 1 / sqrt(4): SciPy's norm is the root mean square of the four components.
         return 0.5 * h * far / math.sqrt(far + 0.01 * near) if far > 0.0 else 0.0
     return 0.5 * h * math.sqrt(far)
 
@@ -323,7 +322,7 @@ def slide_plane(rows, dt, cs, order, rtol):
     """
     y, new, k, p = np.zeros(4), np.zeros(4), np.empty((13, 4)), np.empty(6)
     atol = np.empty(4)
-    # -1 over the order of the error estimate and one: 7 and 4.
+    # -1 / (order of the error estimate + 1); these orders are 7 and 4.
     last, exponent = (12, -0.125) if order == 8 else (6, -0.2)
     moving, prd, h = False, 0.0, dt
     for i in range(rows.shape[0] - 1):
@@ -344,7 +343,7 @@ def slide_plane(rows, dt, cs, order, rtol):
                 tried = min(h, dt - t)
                 _stepped(2, order, t, tried, y, p, k, new)
                 error = _error(order, tried, y, k, new, rtol, atol)
-                # SciPy's own limits of a change of the step, and its safety of 0.9.
+                # SciPy's limits on the change of a step, and its safety factor of 0.9.
                 factor = min(10.0, max(0.2, 0.9 * error**exponent)) if error > 0.0 else 10.0
                 h = factor * tried
                 if error > 1.0 and tried > NEAR * dt:

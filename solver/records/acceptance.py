@@ -41,7 +41,7 @@ _LOW, _KNEE, _PLATEAU, _HIGH = 0.1, 1.3, 8.3, 33.3
 N_SETS = 4
 
 # At most 1/24 octave apart, so that both ends of each band are points.
-# Both are a multiple of `N_SETS` and one more, so that one set has both ends.
+# Each is a multiple of `N_SETS` plus one, so that one set includes both ends.
 N_SLIDING, N_AC156 = 93, 117
 
 # The knee is a point of both bands, once.
@@ -125,7 +125,7 @@ def one_by_one(motions: Sequence[Motion]) -> Sequence[Sequence[Floats]]:
     ]
 
 
-# By the bytes of the record: an array has no hash.
+# Keyed by the bytes of the record, because arrays are not hashable.
 @lru_cache(_KEPT)
 def spectrum_mps2(record: bytes, dt_s: float) -> Floats:
     """Return a record's spectrum at `POINTS_HZ`, computed once for all comparisons."""
@@ -296,7 +296,7 @@ def acceptance(
 
 def motion_strength(motion: Motion, hold_s: float) -> MotionStrength:
     """Measure the strong motion and the correlations of a motion as run."""
-    # As scaled: the scale changes no duration or correlation, but the Arias intensity.
+    # The scale changes the Arias intensity, but no duration or correlation.
     records = {
         name: Record(name=name, dt_s=motion.dt_s, a_mps2=motion.scaled(a))
         for name, a in motion.components.items()

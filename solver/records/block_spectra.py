@@ -23,7 +23,7 @@ _BLOCK = 32
 
 def together(motions: Sequence[Motion], periods_s: Floats) -> list[list[Floats]]:
     """Return the spectra [m/s2] of the components of each motion, before its scale."""
-    # Records of one step and length have the same matrices, and go through them together.
+    # Records of equal step and length share the same matrices and are processed together.
     alike: dict[tuple[float, int], list[Floats]] = {}
     for motion in motions:
         for a in motion.components.values():
@@ -53,7 +53,7 @@ def spectra(a_mps2: Floats, dt_s: float, periods_s: Floats) -> Floats:
         responses = _responses(radians, step_count)
         states = _states(responses[:, -1], inputs[2:])
         for column, p, response, state in zip(some, radians, responses, states, strict=True):
-            # The states at the starts of all blocks are known now, so each block is by itself.
+            # The states at the starts of all blocks are known now, so the blocks are independent.
             inputs[:2] = state
             ordinates[:, column] = _peaks(response, p, inputs, last_steps * step_count, largest)
     return ordinates
@@ -69,7 +69,7 @@ def _inputs(a: Floats) -> tuple[Floats, int]:
     count = max(math.ceil((samples - 1) / _BLOCK), 1)
     padded = np.zeros((records, count * _BLOCK + 1))
     padded[:, :samples] = a
-    # A view of every 32nd window: no sample is copied here.
+    # A view of every 32nd window; no samples are copied.
     blocks = np.lib.stride_tricks.sliding_window_view(padded, _BLOCK + 1, axis=1)[:, ::_BLOCK]
     inputs = np.zeros((_BLOCK + 3, records, count))
     inputs[2:] = blocks.transpose(2, 0, 1)
@@ -83,13 +83,13 @@ def _responses(p: Floats, steps: int) -> Floats:
     """
     free, from_start, from_end = _step(p)
     made = np.zeros((p.size, 1 + steps * _BLOCK, 2, _BLOCK + 3))
-    # The oscillator is linear: its response is the sum of those to each input of size 1.
+    # The oscillator is linear, so its response is a sum of responses to unit inputs.
     made[:, 0, 0, 0] = made[:, 0, 1, 1] = 1.0
     for i in range(steps * _BLOCK):
         made[:, i + 1] = free @ made[:, i]
         first = 2 + i // steps
-        # Within an interval the record is linear: a step has shares of the samples before and after
-        # it.
+        # The record is linear within an interval: each step uses fractions of the samples before
+        # and after it.
         start, end = (i % steps) / steps, (i % steps + 1) / steps
         made[:, i + 1, :, first] += (1.0 - start) * from_start + (1.0 - end) * from_end
         made[:, i + 1, :, first + 1] += start * from_start + end * from_end
@@ -105,7 +105,7 @@ def _step(p: Floats) -> tuple[Floats, Floats, Floats]:
     h, once, twice = np.zeros((3, p.size))
     zeta = DAMPING
     term, ahead, power = 0.0, 1.0, np.ones(p.size)
-    # As many terms as the kernel takes: below one radian the last is below 2e-24 of the first.
+    # As many terms as in the kernel: below one radian the last one is below 2e-24 of the first.
     for k in range(24):
         h += term * power
         once += term * power * p / (k + 1)
@@ -139,13 +139,13 @@ def _peaks(response: Floats, p: float, inputs: Floats, last_steps: int, largest:
     y = np.tensordot(response[stride::stride, 0], inputs, 1)
     # The last block is filled up with zeros: what moves after the end of the record does not count.
     y[last_steps // stride :, :, -1] = 0.0
-    # The state at its start is a point of the block as well, which the strides leave out.
+    # The strides omit the state at the start of the block, which is `inputs[0]`.
     highest = np.maximum(np.abs(y, out=y).max(0), np.abs(inputs[0]))
     peaks: Floats = highest.max(1)
     # From one of these to the next the response bends by y'' = -y - 2 zeta y' - a, and so do the
     # cubics through its steps: only blocks as near to the peak as that are looked at closely.
-    # Between two points h apart a curve exceeds both by h^2 max |y''| / 8 at most; 0.25 is twice
-    # that, for 2 zeta y' is not in the sum.
+    # Between two points a distance h apart, a curve exceeds both by at most h^2 max |y''| / 8. The
+    # factor here is twice 1/8, because the sum omits the term 2 zeta y'.
     bend = 0.25 * (stride * p) ** 2 * (peaks + largest)
     near = highest >= (peaks - bend)[:, None]
     # The strides may miss the end of the record within the last block.

@@ -213,13 +213,13 @@ def _resampled(a: Floats, dt_s: float, new_s: float) -> Floats:
     ratio = new_s / dt_s
     if new_s == 0.0 or _is_near(ratio, 1.0):
         return a
-    # The allowance is for a quotient that rounding puts just below a whole number.
+    # Allows for a quotient that is just below a whole number because of rounding.
     count = math.floor((len(a) - 1) / ratio + 1e-6) + 1
     if ratio > 1.0:
         finer = _finer(ratio)
         a, ratio = _without_aliases(a, ratio, finer), ratio * finer
     if _is_whole(ratio):
-        # Samples that are there already are taken, not interpolated.
+        # Existing samples are used without interpolation.
         return a[:: round(ratio)][:count]
     # With a step that divides the old one, common samples stay the same to the last bit.
     parts = 1.0 / ratio
@@ -235,7 +235,8 @@ def _without_aliases(a: Floats, ratio: float, finer: int) -> Floats:
     cycles = ratio * _frequencies(len(wide), 1.0)
     part = np.clip((2.0 * cycles - _PASSED) / (1.0 - _PASSED), 0.0, 1.0)
     spectrum = np.fft.rfft(wide) * (0.5 + 0.5 * np.cos(math.pi * part))
-    # Zeros above the spectrum draw the same curve at more points; `irfft` divides by their number.
+    # Zeros added above the spectrum give the same curve at more points. The factor compensates for
+    # `irfft`, which divides by the number of points.
     drawn = finer * np.fft.irfft(spectrum, finer * len(wide))
     return np.asarray(drawn[finer * pad : finer * (pad + len(a) - 1) + 1])
 
@@ -313,7 +314,7 @@ def _record_problems(record: Record, processing: Processing) -> list[str]:
     problems = []
     length_s = (len(record.a_mps2) - 1) * record.dt_s
     start, stop = _bounds(record, processing)
-    # A polynomial of degree n fits n + 1 samples exactly: nothing would be left of them.
+    # A polynomial of degree n fits n + 1 samples exactly and would leave only zeros.
     if stop - start < max(2, processing.baseline + 2):
         problems.append(
             f"cut from {processing.from_s:g} s to {processing.to_s:g} s leaves "

@@ -23,7 +23,8 @@ from solver.file_writing import write_whole
 from solver.model import INCH_M, STANDARD_GRAVITY_MPS2, Floats
 
 _ALONE = 3.0  # a code for missing data / all other samples, at least: shaking rises over several
-# Nines of any length, -999.25 (the null value of well logs), 12345, and both ends of 16 bits.
+# Nines of any length, -999.25 (the null value of well logs), 12345, and the limits of 16-bit
+# integers.
 _CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")
 _SHORT_CODES = {"99", "-99"}  # where no shaking is as large
 _NO_SHAKING_G = 9.0
@@ -104,7 +105,7 @@ def record_from_values(
                 f"{name}: an array of {values.ndim} dimensions and type {values.dtype}, or with"
                 " masked values; enter one row of real numbers"
             )
-        # Numbers of Python: a message shows 0.5, not np.float64(0.5).
+        # Python numbers, so that a message shows 0.5 and not np.float64(0.5).
         values = values.tolist()
     if len(values) < 2:
         raise InputError(f"{name}: a column of {len(values)}; enter at least 2 values")
@@ -175,7 +176,7 @@ def record_csv(
     """Return the text that `write_record` writes."""
     _check_arguments(record.name, units, record.dt_s)
     values = record.a_mps2 / UNITS[units]
-    # As many decimals as make every time exact: a step of 0.005 s needs three.
+    # The fewest decimals that print every time exactly: three for a step of 0.005 s.
     places = next((k for k in range(1, 9) if fits(record.dt_s, 10.0**-k)), 9)
     decimals = _decimals(values, DECIMALS[units], within)
     # z: a small negative value prints as 0.00000, not -0.00000.
@@ -209,7 +210,7 @@ def check_gaps(name: str, a_mps2: Floats) -> None:
     values = [f"{a_mps2[index] / unit:.7g}" for unit in UNITS.values()]
     codes = [value for value in values if _CODES.fullmatch(value)]
     if size[index] > _NO_SHAKING_G * UNITS["g"]:
-        # -99 cm/s2 is shaking, -99 g is none.
+        # -99 cm/s2 may be shaking; -99 g cannot be.
         codes += _SHORT_CODES.intersection(values)
     if codes:
         raise InputError(
@@ -334,8 +335,7 @@ def is_raw(text: str) -> bool:
 
 def _plain(text: str) -> str:
     """Normalize: `CM/SEC/SEC`, `cm/s**2`, `cm.s^-2`, `cmps2` and `cm/s²` become `cm/s2`."""
-    # "s*s" first, while the star is there: what follows takes out all that is written between
-    # units.
+    # "s*s" first, because the next step removes the star and other marks between units.
     plain = (
         re.sub(r"[\s^*·.]", "", text.lower().replace("s*s", "s2"))
         .replace("²", "2")

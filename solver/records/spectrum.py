@@ -273,7 +273,7 @@ def factor_to_target(
             f"period range is {shortest_s:g} s to {longest_s:g} s; enter two periods above 0, the "
             f"second longer"
         )
-    # Equally spaced in the logarithm, as the mean of logarithms weighs them.
+    # Equally spaced in logarithms, because the factor is a mean of logarithms.
     count = math.ceil(PER_DECADE * math.log10(longest_s / shortest_s)) + 1
     periods = np.geomspace(shortest_s, longest_s, max(count, 2))
     logs = []
@@ -282,7 +282,7 @@ def factor_to_target(
         if not record.a_mps2.any():
             raise InputError(f"{record.name}: is zero throughout; it cannot be scaled to a target")
         spectrum = response_spectrum(record.a_mps2, record.dt_s, periods, DAMPING)
-        # Their mean over two components is the logarithm of the geometric mean.
+        # The mean of the logarithms of both components is the logarithm of their geometric mean.
         logs.append(np.log(spectrum / UNITS["g"]))
     # Least squares of ln(factor spectrum / target): the factor is the mean of the logarithms.
     difference = np.log(target(1.0 / periods)) - np.mean(logs, axis=0)

@@ -65,7 +65,7 @@ def line(drive: Floats, cap: Floats, dt: float, solver: str, history: Floats) ->
     what the kernels of `solver.kernels.rivals` do, with True in place of the code. Raises
     `InputError` if SciPy is not installed.
     """
-    # In the columns of two axes, so that the onset is found by the same function.
+    # Arranged as for two axes, so that the same function finds the onset.
     rows = np.column_stack([drive, np.zeros_like(drive), cap])
     step, root = getattr(_scipy("integrate"), solver), _scipy("optimize").brentq
     s = w = 0.0

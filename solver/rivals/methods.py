@@ -47,7 +47,7 @@ def _linear(scene: AxisScene, parameters: Parameters, samples: Floats) -> Outcom
 
 
 def _link(scene: AxisScene, parameters: Parameters, samples: Floats, *, implicit: bool) -> Outcome:
-    # Stiffness over weight times g is stiffness over mass, as the kernel has it.
+    # Stiffness / weight times g is stiffness / mass, as the kernel requires.
     p, k = int(parameters["substeps"]), scene.g * parameters["stiffness_per_m"]
     return _outcome(rivals.slide_link(*_letters(scene), p, k, implicit, samples))
 
@@ -67,7 +67,7 @@ def _regularized(scene: AxisScene, parameters: Parameters, samples: Floats) -> O
     s, w = history = by_scipy.regularized(rows, scene.dt, v0, parameters["tolerance"])
     if samples.size:
         samples[:] = history
-    # Only the samples are known: SciPy's solver returns nothing between them.
+    # Only the samples are searched: SciPy's solver returns no values between them.
     peak = int(np.abs(s).argmax())
     # It creeps and never rests: what is slower than v0 is taken for a stop.
     moving = np.sign(w) * (np.abs(w) > v0)
@@ -98,9 +98,10 @@ def _outcome(computed: tuple[int, float, float, float, float, float, int]) -> Ou
 
 _AS_ACCURATE = "Never, as the exact method: restarted at each sample and event it is as accurate. "
 _PAPER = "Predicted Slip of Ballasted Solar Arrays on Angled Roofs due to Seismic Motion"
-# 64 is the paper's choice: its convergence study had an error of 0.48% at most there.
+# 64 is the choice of the paper, whose convergence study found errors of at most 0.48% with it.
 _SUBSTEPS: Parameters = MappingProxyType({"substeps": 64})
-# The paper's link, 100 N/mm for a weight of 1 N; 20 sub-steps of 0.02 s are its 0.001 s.
+# The link of the paper: 100 N/mm for a weight of 1 N; 20 sub-steps of a 0.02 s interval are its
+# sub-step of 0.001 s.
 _LINK: Parameters = MappingProxyType({"stiffness_per_m": 1e5, "substeps": 20})
 _POWERS_OF_TWO = (1, 2, 4, 8, 16, 32, 64, 128, 256)
 

@@ -82,8 +82,8 @@ EDITIONS: Mapping[str, Edition] = {
         Edition(
             name="ASCE 7-22",
             has_site_coefficients=False,
-            # R_mu = sqrt(1.1 R / (I_e Omega_0)) >= 1.3 where the system of the building is known:
-            # 1.3 alone is on the safe side.
+            # R_mu = sqrt(1.1 R / (I_e Omega_0)) >= 1.3 if the structural system is known; 1.3 is
+            # conservative.
             amplification=Amplification(slope=2.5, reduction=1.3),
             force_factors=("C_AR", "R_po"),
             clauses=_COMMON
@@ -182,7 +182,7 @@ def design_categories(
     steps = "ACDD" if is_essential else "ABCD"
 
     def by(value_g: float | None, limits_g: tuple[float, float, float]) -> str:
-        # The tables say "less than": a value equal to a limit is in the next row.
+        # The table rows are "less than": a value equal to a limit belongs to the next row.
         return "" if value_g is None else steps[sum(value_g >= limit for limit in limits_g)]
 
     is_near = s_1_g is not None and s_1_g >= NEAR_FAULT_S_1_G
@@ -284,5 +284,5 @@ def approximate_period_s(system: str, height_m: float) -> float:
         problems.append(f"height: found {height_m} m; enter a number above 0")
     raise_any(problems)
     coefficient, exponent = APPROXIMATE_PERIODS[system]
-    # C_t of the table's customary units: h_n in feet.
+    # C_t is for customary units, with h_n in feet.
     return float(coefficient * (height_m / FOOT_M) ** exponent)

@@ -119,7 +119,7 @@ def analysis_value(
         mean_m=mean,
         largest_m=largest,
         basis=basis_used,
-        # The factor of the basis that was asked for, even if there are too few motions for it.
+        # The factor of the requested basis, even if there are too few motions for it.
         factor=_factor(rules, basis or basis_used),
         value_m=factored(rules, basis_used, mean, largest),
     )
@@ -210,7 +210,7 @@ def required_separation(
 
 def minimum_separation_m(rules: RuleSet, neighbor: Neighbor) -> float:
     """Return the minimum separation [m] of a rule set for any displacement; 0 if it has none."""
-    # 48 in of ASCE 7; PV1-2012 states none.
+    # 48 in. in ASCE 7; PV1-2012 has no minimum.
     return rules.length_m("separation_edge_min_in") if neighbor is Neighbor.EDGE else 0.0
 
 
@@ -271,7 +271,7 @@ def array_checks(
         _check(
             rules,
             "Roof slope, any ballasted system",
-            # The sign of a slope says only which way the record's axis points.
+            # The sign of the slope states only the direction of the record's axis.
             math.degrees(abs(slope_rad)),
             "ibc_max_slope_deg",
             measure=Measure.ANGLE_DEG,

@@ -163,7 +163,7 @@ class RuleSet:
             raise InputError(outside)
         values = dict(self.values)
         for key, (value, reason) in changes.items():
-            # The clause stays: a package prints what was overridden, with the reason.
+            # The clause is kept: a package prints which provision was overridden, with the reason.
             values[key] = replace(values[key], value=value, reason=reason)
         return replace(self, values=values)
 
@@ -232,7 +232,7 @@ _PV1: _Rows = {
 _ONE_IN_20_DEG = math.degrees(math.atan(1 / 20))
 
 # The maximum slope is 1 in 20. No parapet height above the c.g. is stated.
-# 13.6.12 has the displacement in feet, 5 I_e (S_DS - 0.4)^2: 60 in.
+# 13.6.12 states the displacement in feet, 5 I_e (S_DS - 0.4)^2; 5 ft are 60 in.
 _ASCE: _Rows = {
     "prescriptive_factor_in": (60, C, "13.6.12"),
     "prescriptive_minimum_in": (24, K, "13.6.12"),

@@ -135,6 +135,7 @@ def _size_of_series(values: Mapping[str, Given | None], problems: list[str]) -> 
 
 def is_series(value: object) -> bool:
     """Whether the argument is a Series of pandas: values with an index and a name."""
+    # By its attributes: pandas is optional and is not imported here.
     return all(hasattr(value, name) for name in ("index", "name", "to_numpy"))
 
 

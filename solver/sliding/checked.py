@@ -98,7 +98,7 @@ def slide(
             return result
     shaking = MotionArguments(ax_mps2, ay_mps2, az_mps2, dt_s, scale, units)
     run = scene_of(shaking, slope_rad, mu, g_mps2, method, parameters)
-    # `tolerance` is the only parameter left: `scene_of` has refused the others.
+    # `tolerance` is the only possible parameter: `scene_of` rejects all others.
     if _is_in_two_axes(run):
         return two_axes.run(run, **parameters)
     return one_axis.run(run, method_of(method), **parameters)

@@ -72,8 +72,8 @@ class Settings:
 
     def bound_m(self, prd_m: float) -> float:
         """Return the effect on a displacement up to which a component is not modeled [m]."""
-        # Below a PRD of 200 mm the first is the larger: half a percent of 10 mm would have every
-        # component modeled.
+        # Below a PRD of 200 mm the first value governs. With a percentage alone, 0.05 mm would
+        # matter for a PRD of 10 mm, and every component would be modeled.
         return max(self.matters_m, self.matters_share * prd_m)
 
 
@@ -280,8 +280,8 @@ def _explain(
 def _left_out(chosen: SlideResult, *fuller: SlideResult) -> float:
     """Return the largest change of a displacement by more complete models [m]; inf: none."""
     # Excursions are compared as well: two models may give the same PRD by chance on different
-    # paths. So are residuals, which cumulative displacement adds up. The error of the fuller model
-    # counts as an effect, too: its run may be off by that much.
+    # paths. So are residuals, because cumulative displacement is their sum. The error of the more
+    # complete model is added: its result is uncertain by that amount.
     effects = [
         abs(getattr(result, name) - getattr(chosen, name)) + result.error_m
         for result, name in product(fuller, _LENGTHS)
@@ -391,5 +391,5 @@ def _level(scene: Scene) -> Scene:
 
 
 def _mm(value_m: float) -> str:
-    # Through a float: `.2g` alone prints 120 as 1.2e+02.
+    # Converted to a float and formatted again: `.2g` alone prints 120 as 1.2e+02.
     return f"{float(f'{value_m * 1e3:.2g}'):g}{NO_BREAK}mm"

@@ -42,7 +42,7 @@ def bounds_of(scene: Scene) -> RecordBounds:
     return RecordBounds(*map(kernel.bounds, components(scene)))
 
 
-# By position alone, so that a parameter of an own method may be called `scene`.
+# Positional only, so that a user's method may have a parameter named `scene`.
 def run(scene: Scene, method: Method = EXACT, /, **parameters: float) -> SlideResult:
     """Slide a checked scene along the slope by a method; cross-slope shaking is neglected."""
     return _run(method, parameters, prepared(scene), _NO_HISTORY)[0]
@@ -173,13 +173,13 @@ def prepared(scene: Scene, bounds: RecordBounds | None = None) -> AxisScene:
         ax=scene.ax_mps2,
         x=bounds.x if bounds else kernel.bounds(scene.ax_mps2),
         az=scene.az_mps2,
-        # For a missing vertical `bounds_of` has bounds of zeros, and a scene of one axis those of
-        # none.
+        # Without a vertical component, `bounds_of` has bounds of zeros, but `AxisScene` requires
+        # those of an empty record.
         z=bounds.z if bounds and scene.az_mps2.size else kernel.bounds(scene.az_mps2),
         dt=scene.dt_s,
         sn=math.sin(scene.slope_rad),
         cs=math.cos(scene.slope_rad),
-        # A run in one axis neglects a friction law: it takes the coefficient at low velocity.
+        # One axis neglects a friction law and uses the low-velocity coefficient.
         mu=scene.friction.mu_slow,
         g=scene.g_mps2,
         scale=scene.scale,

@@ -25,7 +25,7 @@ from solver.sliding.arguments import is_zero_or_more
 # Limit on time steps, above which links are too stiff: about one minute for a row of five.
 MOST_STEPS = 10_000_000
 
-# In one sampling interval; beyond it a run ends as `Status.DIVERGED`.
+# Per sampling interval; with more events, the run ends with `Status.DIVERGED`.
 _MOST_EVENTS = 20_000
 
 
@@ -98,14 +98,14 @@ def row_history(scene: Scene, row: BlockRow) -> Floats:
     samples = np.full((len(row.mus), scene.ax_mps2.size), np.nan)
     result = _run(scene, row, samples)
     if math.isnan(result.prd_m[0]):
-        # The kernel may have filled some samples before it gave up.
+        # The kernel may have filled some samples before it stopped.
         samples[:] = np.nan
     return samples * math.cos(scene.slope_rad)
 
 
 def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
     """Run a row; `samples`, if given, is filled with s at the samples."""
-    # `or`: the number of steps is computed from values that are known to be valid.
+    # `or`: the number of steps can be computed only from valid values.
     raise_any(_faults(row) or _too_stiff(scene, row))
     # Rigid links: one block of the mean friction, weighted by the shares; N is the same for all.
     rigid = one_axis.run(replace(scene, friction=coulomb(row.mean_mu)))
@@ -130,7 +130,7 @@ def _run(scene: Scene, row: BlockRow, samples: Floats | None) -> RowResult:
     if not reached or not np.isfinite(peaks).all():
         return _nothing(Status.DIVERGED, row, rigid)
     down, up, end, rate = math.cos(scene.slope_rad) * peaks.T
-    # A single block has no link: `initial` is the largest of none.
+    # A single block has no link; `initial` is the maximum of an empty array.
     stretch, force = links.max(axis=0, initial=0.0)
     return RowResult(
         # Exactly zero at rest: the kernel sets a block's rate to zero where it stops.

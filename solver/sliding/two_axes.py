@@ -33,7 +33,7 @@ TOLERANCES = (1e-10, 1e-2)
 # Tolerance of a step / tolerance of the run. With this ratio the error bound is below the tolerance
 # of the run at the first attempt except for long slips.
 _SHARE = 1.5e-3
-# After the last one the run is returned as it is, with the error that it reached.
+# The result of the last attempt is returned with the error that it reached.
 _ATTEMPTS = 5
 
 # Limit on the steps of a run: a fixed number and an addition per sample. A record of 30 s at
@@ -101,7 +101,7 @@ def _run_checked(
     scene: Scene, tolerance: float, bounds: RecordBounds
 ) -> tuple[SlideResult, TwoAxesOutcome | None]:
     """Return the result and the outcome behind it; None if that gives no displacement."""
-    # N has no term in ay: it is that of one axis.
+    # N does not depend on ay, so it is the same as in one axis.
     n_min_g, t_uplift = minimum_normal(prepared(scene, bounds))
     if n_min_g < 0.0:
         return without_displacement(Status.UPLIFT, n_min_g, t_uplift), None

@@ -55,7 +55,7 @@ def grid(
 
 def cases_of(rows: Sequence[tuple[int, float, float, float]]) -> Cases:
     """Return cases from tuples of building, slope [rad], friction coefficient and intensity."""
-    # Four columns even of no rows.
+    # Four columns, even if there are no rows.
     columns = np.array(rows, dtype=float).reshape(-1, 4).T
     return Cases(columns[0].astype(np.int64), *(column.copy() for column in columns[1:]))
 
@@ -92,6 +92,6 @@ class Campaign:
         # Rounded up.
         count = -(-self.rows // (PLANE_PART_ROWS if is_plane else PART_ROWS))
         count = min(max(count, LEAST_PARTS), MOST_PARTS, len(self.cases))
-        # Whole cases: a part has all runs of each.
+        # Parts are divided between cases, so that each contains all runs of its cases.
         edges = [len(self.cases) * number // count for number in range(count + 1)]
         return tuple(slice(*ends) for ends in pairwise(edges))

@@ -132,7 +132,8 @@ class Curve:
             low, high = high, 2.0 * high
             if high > GREATEST_INTENSITY:
                 return math.inf
-        # Until no float is between both ends, or they are some roundings apart.
+        # Until there is no float between the ends, or the ends differ only by a few rounding
+        # errors.
         while low < (middle := 0.5 * (low + high)) < high and high - low > 1e-14 * high:
             low, high = (low, middle) if slips(middle) else (middle, high)
         return low
@@ -214,7 +215,7 @@ def _of_motion(
     if not slip:  # the slope alone exceeds friction: a block at rest does not stay at rest
         return [(0.0, is_censoring and limit > 0.0, 0.0, False, 0) for limit in limits_m]
     before = curve.runs
-    # The levels too: those that the caller has run cost nothing more (`Curve.known`).
+    # Levels that the caller has already run need no further run (`Curve.known`).
     x = np.union1d(np.linspace(slip, top, steps + 1), levels[levels > slip])
     # Below the first that is beyond all limits every orientation is run: none exceeds it.
     decisive_m = math.inf if is_censoring else max(limits_m)
@@ -223,7 +224,7 @@ def _of_motion(
         if to_end
         else np.array([*_until_beyond(curve, x[1:], max(limits_m), decisive_m)])
     )
-    # Where slip begins the PRD is zero: it needs no run.
+    # At the onset of slip the PRD is zero, so no run is needed.
     x, prd_m = x[: run.size + 1], np.concatenate([[0.0], run])
     capacities = [
         _Scan(curve, x, prd_m).capacity(limit, is_censoring)
@@ -253,7 +254,7 @@ def _may_exceed(x: Floats, prd_m: Floats, limit_m: float) -> Flags:
         steep = np.nan_to_num(np.abs(np.diff(prd_m)) / steps, nan=0.0)
     padded = np.concatenate([[0.0], steep, [0.0]])
     around = np.maximum(np.maximum(padded[:-2], padded[2:]), steep)
-    # A curve through both runs that is nowhere steeper than L stays below their mean + L step / 2.
+    # A curve through two points with a slope of at most L stays below their mean + L step / 2.
     mean = 0.5 * (prd_m[:-1] + prd_m[1:])
     # Not > : NaN is beyond every limit.
     return np.asarray(~(mean + 0.5 * STEEPER * around * steps <= limit_m))
@@ -263,7 +264,7 @@ def _may_exceed_at(x: float, known: dict[float, float], limit_m: float) -> bool:
     """Return whether the limit may be exceeded at an intensity next to the known ones."""
     xs = sorted(known)
     place = bisect(xs, x)
-    # Outside of the runs so far nothing keeps the curve below a limit.
+    # Outside the range of the runs so far, nothing bounds the curve.
     if place in (0, len(xs)):
         return True
     # The step, with one on each side.
@@ -292,8 +293,7 @@ class _Scan:
         is_censored = first > end
         falls = bool((self._prd_m[first:] <= limit_m).any())
         last = end if is_censored else max(first - 1, 0)
-        # A step that could not be searched any more may hold the first crossing: the capacity is
-        # below.
+        # The first crossing may be in a step that was not searched; the capacity is taken below it.
         if close.size:
             last = min(last, int(np.searchsorted(self._x, close[0])) - 1)
         return float(self._x[last]), is_censored, float(self._x[end]), falls

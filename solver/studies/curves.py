@@ -68,7 +68,7 @@ def first_allowed(values: Floats, prd_m: Floats, allowed_m: float) -> float:
     last = int(beyond[-1])
     if last + 1 == values.size:
         return math.nan
-    # Between a run without a value and the next nothing can be interpolated.
+    # No interpolation is possible next to a run without a value.
     if math.isnan(prd_m[last]):
         return float(values[last + 1])
     part = (prd_m[last] - allowed_m) / (prd_m[last] - prd_m[last + 1])
@@ -117,7 +117,8 @@ class Fit:
         )
 
     def _r(self, slope_rad: float, mu: float, intensity: float) -> float:
-        # Yield acceleration downslope, g tan(phi - theta), over the peak acceleration.
+        # Yield acceleration for downslope slip, g tan(phi - theta), divided by the peak
+        # acceleration.
         return math.tan(math.atan(mu) - slope_rad) / (self.ppa_g * intensity)
 
 
@@ -144,7 +145,7 @@ def fit_prd(
     ppa_g = _to_digits(ppa_g)
     with np.errstate(divide="ignore"):
         r = np.tan(np.arctan(mu) - slope_rad) / (ppa_g * intensity)
-    # NaN, a run without a value, fails the comparison.
+    # A run without a value is NaN, for which the comparison is false.
     fits = (prd_m >= LEAST_PRD_M) & (r > 0.0) & (r <= LARGEST_R)
     cases = int(fits.sum())
     if cases < 2 * TERMS:

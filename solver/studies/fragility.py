@@ -206,7 +206,7 @@ def _drawn_ranges(capacities: Capacities, fitted: Lognormal, seed: int) -> tuple
             return float(deviance(y, flags, mean + distance, observed)[0]) - bound
 
         near, far = 0.0, step
-        # Doubled until the ends bracket the root, for `brentq`.
+        # Doubled until the ends bracket the root, as `brentq` requires.
         while over(far) <= 0.0:
             near, far = far, 2.0 * far
         return math.exp(mean + brentq(over, near, far))
@@ -227,8 +227,8 @@ def lilliefors(values: Floats) -> Floats:
     off = np.sort(values, axis=-1) - values.mean(axis=-1, keepdims=True)
     below = ndtr(off / values.std(axis=-1, ddof=1, keepdims=True))
     steps = np.arange(n) / n
-    # The distribution of the values steps up by 1 / n at each: both sides of each step are
-    # compared.
+    # The empirical distribution increases by 1 / n at each value; the distance is measured on both
+    # sides of each step.
     return np.asarray(np.maximum(below - steps, steps + 1.0 / n - below).max(axis=-1))
 
 
@@ -248,7 +248,7 @@ def lilliefors_critical(motions: int) -> float:
 @lru_cache(maxsize=8)
 def _drawn_distances(motions: int) -> Floats:
     """Return the distances of normal samples, increasing."""
-    # One seed for all: equal capacities have one p-value, whatever the seed of their study.
+    # A fixed seed: equal capacities have the same p-value in every study.
     drawn = np.random.default_rng(1967).standard_normal((LILLIEFORS_REPEATS, motions))
     return np.sort(lilliefors(drawn))
 
@@ -269,7 +269,8 @@ class Normals:
 
 def inverse_mills(z: Floats) -> Floats:
     """Return phi(z) / Phi(z)."""
-    # By the scaled error function: phi and Phi underflow far below the mean, their ratio does not.
+    # Uses the scaled error function: far below the mean, phi and Phi underflow, but their ratio
+    # does not.
     return np.asarray(math.sqrt(2.0 / math.pi) / erfcx(-z * math.sqrt(0.5)))
 
 
@@ -280,8 +281,10 @@ def fit_normals(y: Floats, is_censored: Flags) -> Normals:
     shift = np.where(is_censored, 0.0, y).sum(axis=1) / known
     off = y - shift[:, None]
     spread = np.sqrt((np.where(is_censored, 0.0, off) ** 2).sum(axis=1) / known)
+    # Known values that are all equal do not determine a deviation.
     spread = np.where(spread > SETTLED * (1.0 + np.abs(shift)), spread, np.nan)
     v = off / spread[:, None]
+    # The iteration starts from the normal of the known values alone.
     a, b = np.zeros_like(shift), np.ones_like(shift)
     for _ in range(MOST_STEPS):
         z = a[:, None] - b[:, None] * v
@@ -323,6 +326,7 @@ def deviance(y: Floats, is_censored: Flags, mean: float, fitted: Normals) -> Flo
         slope = inverse_mills(-z)
         g = np.where(is_censored, -v * slope, 1.0 / b[:, None] - z * v)
         h = np.where(is_censored, v * v * slope * (slope - z), 1.0 / b[:, None] ** 2 + v * v)
+        # At most half of b is subtracted, so that it stays positive.
         step = np.maximum(g.sum(axis=1) / h.sum(axis=1), -0.5 * b)
         b = b + step
         if not (np.abs(step) > SETTLED * b).any():

@@ -194,7 +194,7 @@ def life_statistics(distances_m: Floats, clearance_m: float) -> LifeStatistics:
     """Return the statistics of distances of lives; inf for none."""
     return LifeStatistics(
         mean_m=float(distances_m.mean()),
-        # One of the distances: between one of them and inf there is nothing to interpolate.
+        # Without interpolation: between a distance and inf it is not possible.
         p95_m=float(np.quantile(distances_m, 0.95, method="inverted_cdf")),
         beyond=float((distances_m > clearance_m).mean()),
         without_value=float(np.isinf(distances_m).mean()),

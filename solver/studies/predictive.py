@@ -84,7 +84,7 @@ def predictive(surfaces: Sequence[Series]) -> Predictive:
     between, p_value = 0.0, math.nan
     if count > 1:
         every = np.concatenate(groups)
-        # The sum of squares of all runs less that within surfaces is that of the means.
+        # Sum of squares of the surface means: that of all runs minus that within surfaces.
         among = float(((every - every.mean()) ** 2).sum()) - squares
         # Random effects of a one-way layout of unequal sizes by the method of moments (Searle,
         # Casella and McCulloch 1992, Variance Components, chapter 3).

@@ -111,7 +111,7 @@ def contributions(
     beyond the levels, which exceed every limit.
     """
     levels, rate = np.broadcast_to(levels, prd_m.shape), np.broadcast_to(rate, prd_m.shape)
-    # Beyond every limit.
+    # A run without a value exceeds every limit.
     prd = np.where(np.isnan(prd_m), np.inf, prd_m)
     low, high, below, above = prd[..., :-1], prd[..., 1:], rate[..., :-1], rate[..., 1:]
     # An interval exceeds the limit as a whole, from its crossing on, or up to it.
@@ -160,8 +160,7 @@ def displacements_at(limits_m: Floats, rates: Floats, years: Floats) -> Floats:
     x = np.log(np.maximum(limits_m, 0.5 * limits_m[1]))
 
     def exceeded(of_limits: Floats) -> Floats:
-        # Rates fall with the limit, so the logarithms of the intervals rise, as `interp` needs
-        # them.
+        # Rates decrease with the limit, so -log(rate) increases, as `interp` requires.
         interpolated = np.interp(np.log(years), -np.log(of_limits), x, right=np.inf)
         return np.asarray(np.exp(interpolated))
 

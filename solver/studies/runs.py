@@ -161,6 +161,8 @@ def _solve_along(track: Track, scenes: Floats) -> tuple[Rows, NDArray[np.intp]]:
 
 def _sweep(track: Track, scenes: Floats, az: Floats | None, z: Floats | None) -> Floats:
     """Return `LENGTHS` [m] and the speed at the end [m/s], shape (6, m)."""
+    # The order of `order_alike` is 10 to 20% faster; the results are put back in that of the
+    # scenes.
     order, out = order_alike(scenes), np.empty((len(scenes), 4))
     scene = track.scene
     kernel.sweep_exact(scene.ax_mps2, az, track.x, z, scene.dt_s, scene.g_mps2, scenes[order], out)

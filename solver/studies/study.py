@@ -83,8 +83,7 @@ class StudyRuns:
         NaN where a run of the motion has no final value.
         """
         final = np.where(self.status == STATUSES.index(Status.OK), self.lengths[0], np.nan)
-        # A run without a value is NaN, which the largest of the orientations of its motion then is,
-        # too.
+        # A run without a value is NaN, and so is the maximum over the orientations of its motion.
         ends = np.cumsum([len(motion.orientations) for motion in self.motions])
         return np.stack([run.max(axis=-1) for run in np.split(final, ends[:-1], axis=-1)], axis=-1)
 
@@ -114,7 +113,7 @@ class StudyRuns:
         """
         from solver.studies.fragility import fragility  # with SciPy, which is optional
 
-        # The intensity is of no account: a track is a motion at intensity 1.
+        # The intensity does not matter here: tracks are motions at an intensity of 1.
         tracks = iter(Runner(_campaign(self.motions, (slope_rad,), (mu,), (1.0,))).tracks[0])
         by_motion = [
             Curve(tracks=[next(tracks) for _ in motion.orientations], slope_rad=slope_rad, mu=mu)

@@ -298,7 +298,7 @@ def _run_in_plane(
         )
 
     results: list[SlideResult] = []
-    # A sweep in two axes always starts them (`_swept`).
+    # `_swept` always starts threads for two axes.
     assert threads is not None
     for k, slope in enumerate(slopes):
         results += threads.map(run, product([slope], mus, scales))
@@ -317,7 +317,7 @@ def _run_in_plane(
 def axis(name: str, values: ArrayLike, above: float, below: float, problems: list[str]) -> Floats:
     """Return the values of an axis, between two limits, adding a problem for every invalid one."""
     try:
-        # One value may stand for an axis; `asanyarray` keeps the mask of a masked array.
+        # A single value is an axis of length 1; `asanyarray` keeps the mask of a masked array.
         samples = np.atleast_1d(np.asanyarray(values))
     except (TypeError, ValueError, OverflowError):
         samples = np.empty(0, dtype=object)
@@ -327,7 +327,7 @@ def axis(name: str, values: ArrayLike, above: float, below: float, problems: lis
     array = np.asarray(samples, dtype=np.float64)
     if array.ndim != 1 or array.size == 0:
         problems.append(f"{name} has shape {array.shape}; use one row of values")
-    # Negated, so that NaN is wrong, too.
+    # Negated, so that NaN is rejected as well.
     wrong = array[~((array > above) & (array < below))]
     if wrong.size:
         problems.append(f"{name} has {wrong[0]}; use values that `slide` accepts")
@@ -354,7 +354,7 @@ def _run(
         one_axis.sweep_exact(ax, up, x, z, scene.dt_s, scene.g_mps2, scenes[chosen], out)
         outcomes[chosen] = out
 
-    # As many parts as slopes, for the progress alone: a part may have scenes of any slope.
+    # The number of slopes is used only to report progress; a part may contain scenes of any slope.
     for k, part in enumerate(np.array_split(order_alike(scenes), slopes.size)):
         if threads is None:
             run(part)

@@ -155,7 +155,7 @@ def make_frame(target: Target, dt_s: float, duration_s: float) -> MatchingFrame:
     from_start = np.linspace(0.0, 1.0, n)
     # A sixth of the duration each for rise and decay: 5, 20 and 5 s of 30 s, as in AC156.
     envelope = np.minimum(1.0, 6.0 * np.minimum(from_start, from_start[::-1]))
-    # The last one has five cycles a step: it moves as its support, and holds the peak acceleration.
+    # The last oscillator has five cycles per step: it is rigid and matches the peak acceleration.
     freq_hz = np.append(_matched_hz(low_hz, min(50.0, 0.4 / dt_s)), 5.0 / dt_s)
     return MatchingFrame(
         target=target,
@@ -216,10 +216,12 @@ def shaped(frame: MatchingFrame, start: Floats) -> Floats:
     # Twice the length or more: a changed amplitude must not come round from the end.
     padded = 1 << (n - 1).bit_length() + 1
     spectrum = np.fft.rfft(start, padded)
+    # The frequency 0 has no logarithm.
     freq_hz = np.maximum(np.fft.rfftfreq(padded, frame.dt_s), 1e-3)
     low, high = frame.freq_hz[0], frame.freq_hz[-2]
     # Random vibration: PSA ~ amplitude x sqrt(frequency) at light damping.
     gain = target_sa_g(frame.target, freq_hz) / np.sqrt(freq_hz)
+    # The gain falls off outside the band that is matched.
     gain /= (1.0 + (0.9 * low / freq_hz) ** 8) * (1.0 + (freq_hz / (1.2 * high)) ** 8)
     for _ in range(_SHAPINGS):
         a = _calmed(frame, frame.envelope * np.fft.irfft(spectrum * gain, padded)[:n])
@@ -281,7 +283,7 @@ def _corrected(frame: MatchingFrame, a: Floats) -> Floats:
         products[np.ix_(of_rows, of_rows)] += block @ block.T
     # The quiet shapes have no ridge: they stay zero exactly, whatever the peaks ask.
     products[np.diag_indices(m)] *= 1.0 + rows.ridge
-    # The right side takes out at once what is left of the quiet shapes.
+    # The right-hand side also removes what remains of the quiet shapes.
     factors = np.linalg.solve(products, np.append(rows.moves, -frame.quiet @ a))
     change = [factors[of_rows] @ block for of_rows, block in blocks]
     return a + frame.envelope**2 * np.concatenate(change)
@@ -311,6 +313,7 @@ def _asked(frame: MatchingFrame, a: Floats) -> _Rows:
     beyond = np.abs(values) / goal[which] - _MOST
     # A peak is at the end of its step.
     beyond[np.abs(where - samples[which]) <= 1] = 0.0
+    # A stable sort: the order of equal crests is the same on every processor.
     farthest = np.argsort(-beyond, kind="stable")[:_CRESTS]
     farthest = farthest[beyond[farthest] > 0.0]
     every = np.append(np.arange(len(goal)), which[farthest])

@@ -89,6 +89,7 @@ def seeds_of(
             a=strongest(record, dt_s, n),
             own_phases=motion < len(records) and axis < len(group),
         )
+        # A component that the group does not contain uses the first record, with random phases.
         for axis, record in enumerate((*group, *(group[0],) * 3)[:3])
     )
     return x, y, z
@@ -122,7 +123,7 @@ def strongest(record: Record, dt_s: float, n: int) -> Floats:
     if len(a) <= n:
         before = (n - len(a)) // 2
         return np.pad(a, (before, n - len(a) - before))
-    # From the sums up to each sample the energy of every window is one difference.
+    # With cumulative sums, the energy of each window is one difference.
     energy = np.append(0.0, np.cumsum(a**2))
     first = int(np.argmax(energy[n:] - energy[:-n]))
     return a[first : first + n]
@@ -146,7 +147,7 @@ def _turned(a: Floats, rng: np.random.Generator, by_rad: float) -> Floats:
 def _leveled(a: Floats, rng: np.random.Generator) -> Floats:
     """Divide by the level over a few seconds; fill weak parts with noise of the same spectrum."""
     width = round(_LEVEL * len(a))
-    # Without the zeros at its ends.
+    # Without the zeros at the ends of the window.
     bell = np.hanning(width + 2)[1:-1]
     # A convolution may be below zero by rounding.
     level = np.sqrt(np.maximum(np.convolve(a**2, bell / bell.sum(), "same"), 0.0))
@@ -282,7 +283,8 @@ def make_suite(
     _check_records(records, dt_s, duration_s)
 
     def made(k: int, sequence: np.random.SeedSequence) -> SuiteMotion:
-        # Named: the generator of `default_rng` may change with NumPy, and with it every suite.
+        # Named explicitly: the generator of `default_rng` may change with NumPy, which would change
+        # every suite.
         rng = np.random.Generator(np.random.PCG64(sequence))
         # y is drawn last, so that x and z are the same as in a pair without y.
         seed_x, seed_y, seed_z = seeds_of(records, k - 1, dt_s, len(horizontal.envelope))
@@ -295,12 +297,12 @@ def make_suite(
     progress(f"0 of {count} motions generated")
     # A stream of its own for each motion: motion k is the same whatever the count.
     sequences = enumerate(np.random.SeedSequence(seed).spawn(count), start=1)
-    # Threads, not processes: kernels and NumPy let go of the lock of Python.
+    # Threads, not processes: kernels and NumPy release Python's lock.
     with ThreadPoolExecutor(THREADS) as pool:
         motions = [pool.submit(made, k, sequence) for k, sequence in sequences]
         try:
             for done, motion in enumerate(as_completed(motions), start=1):
-                # An error of one motion is raised here, and the others are not begun.
+                # Raises the error of a failed motion; motions not yet started are canceled.
                 motion.result()
                 progress(f"{done} of {count} motions generated")
         finally:
@@ -331,7 +333,7 @@ def synthesize(
     for draw in range(DRAWS):
         start = grown(seed, rng, len(frame.envelope), draw)
         a = matched(frame, shaped(frame, start))
-        # Scaled, then rounded, then compared: what is accepted is the record as it will be printed.
+        # Scaled and rounded before the checks: the accepted record is the one that is printed.
         a = rounded(a * _ABOVE / _lowest(frame, a))
         record = Record(name=name, dt_s=frame.dt_s, a_mps2=a)
         alike = any(abs(correlation(record, earlier)) > MOST_CORRELATION for earlier in unlike)

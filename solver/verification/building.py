@@ -83,7 +83,7 @@ def identify(
         modes = _beam(alpha0, heights)
         zeta = np.full(MODES, damping)
         responses = absolute_accelerations(ground_mps2, dt_s, period_s * modes.period_ratios, zeta)
-        # What the other modes would carry moves with the ground, as in `solver.building.roof`.
+        # The neglected modes move with the ground, as in `solver.building.roof`.
         rigid = 1.0 - modes.factors.sum(axis=0)
         return unexplained(responses @ modes.factors + ground_mps2[:, None] * rigid, floors_mps2)
 
@@ -109,7 +109,7 @@ def _descend(
     misfit: Callable[[_Point], float], minimum: float, best: _Point
 ) -> tuple[float, _Point]:
     """Step to the best adjacent point on each axis; halve the steps if none is better."""
-    # Half the distance between points of the grid in the period; the grid is coarse in the others.
+    # Half the grid spacing in the period; the grid is coarse in damping and stiffness ratio.
     reach = np.array([_PERIOD_STEP / 2.0, 0.4, 0.4])
     while reach[0] > _LAST_STEP:
         around: list[_Point] = []
@@ -123,7 +123,7 @@ def _descend(
     return minimum, best
 
 
-# The grid asks for the same few stiffness ratios at every period.
+# The grid uses the same few stiffness ratios at every period.
 @lru_cache(maxsize=256)
 def _beam(alpha0: float, heights: tuple[float, ...]) -> Modes:
     return beam_modes(alpha0, MODES, heights)

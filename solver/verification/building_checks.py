@@ -79,7 +79,7 @@ def _stepped(a: Floats, dt: float) -> Floats:
     squares, shapes = np.linalg.eigh(stiff)
     squares *= (2.0 * math.pi / PERIOD_S) ** 2 / squares[0]
     stiff = (shapes * squares) @ shapes.T
-    # The same ratio in every mode: Rayleigh damping would have it at two periods alone.
+    # The same damping ratio in every mode; Rayleigh damping would have it at only two periods.
     damp = (shapes * (2.0 * DAMPING * np.sqrt(squares))) @ shapes.T
     n = 2 * STORIES
     rate = np.zeros((n + 2, n + 2))
@@ -137,7 +137,8 @@ def _steady_waves() -> Iterator[Verified]:
         # The last second: after 19 s the transient is below 1e-10 of its beginning.
         amplitude = float(np.abs(roof[-round(1.0 / dt) :]).max())
         name = f"Harmonic, frequency ratio {equation('r', ratio)}"
-        # Straight lines of 0.001 s take 5e-5 off a sine of 4 Hz, the highest here.
+        # Linear interpolation at 0.001 s reduces a sine of 4 Hz, the highest frequency here, by
+        # 5e-5.
         yield Verified("RM-2", source, "Roof / ground", "1", name, expected, amplitude, 1e-4)
 
 
@@ -200,13 +201,13 @@ def _finite_elements(alpha0: float, count: int = 64) -> tuple[list[float], list[
         stiff[part, part] += (bending + alpha0**2 * shear / (30.0 * size)) * turned
         heavy[part, part] += mass * turned
     rigid = (heavy @ np.tile([1.0, 0.0], count + 1))[2:]
-    # The base is clamped: neither deflection nor slope there.
+    # The base is clamped: no deflection and no slope.
     stiff, heavy = stiff[2:, 2:], heavy[2:, 2:]
     # With the root of the mass the problem of two matrices is one of a symmetric matrix.
     root = np.linalg.inv(np.linalg.cholesky(heavy))
     squares, shapes = np.linalg.eigh(root @ stiff @ root.T)
     shapes = root.T @ shapes
-    # The last but one is the deflection of the top, the last its slope.
+    # The second to last is the deflection of the top, the last one its slope.
     return np.sqrt(squares / squares[0]).tolist(), (rigid @ shapes * shapes[-2]).tolist()
 
 
@@ -217,7 +218,8 @@ def _sums() -> Iterator[Verified]:
         (6.0, ", stiffness ratio 6"),
         (math.inf, " in shear"),
     ):
-        # Roof factors alternate in sign, and their sums about the limit: the mean of two is nearer.
+        # Roof factors alternate in sign and their sums alternate about the limit, so a mean of two
+        # sums is closer to it.
         sums = np.cumsum(beam_modes(alpha0, 400).factors[:, 0])
         total, name = float(0.5 * (sums[-1] + sums[-2])), f"Cantilever{kind}, all modes"
         yield Verified("RM-6", source, "Sum of roof factors", "1", name, 1.0, total, 1e-4)

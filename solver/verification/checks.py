@@ -78,7 +78,7 @@ def _pulses_on_a_flat_roof() -> Iterator[Verified]:
         name = f"{equation('A', a, 'g')} for {lasts:g} s, {equation('μ', mu)}, flat roof"
         plateau = round(lasts / dt)
         expected = reference.pulse_travel(a * G, mu * G, plateau * dt, dt)
-        # A roof that accelerates toward -x leaves the block behind toward +x.
+        # If the roof accelerates toward -x, the block slips toward +x.
         result = slide(trapezoid(-a * G, plateau, 400), dt, slope_rad=0.0, mu=mu, g_mps2=G)
         pulse = f"Trapezoidal pulse {name}"
         yield Verified("CF-1", PIECEWISE, "PRD", "m", pulse, expected, result.prd_m)
@@ -179,8 +179,8 @@ def _limit_by_bisection(slope: float, mu: float, limit: float) -> float:
     for _ in range(45):
         middle = 0.5 * (low + high)
         ax = np.array([0.0, middle, 0.0])
-        # A block that moves stops within the record: the first middle is the limit itself, and
-        # nothing beyond 1.5 times the limit is tried.
+        # A moving block stops within the record: the first value tried is the limit itself, and no
+        # value exceeds 1.5 times the limit.
         moves = slide(ax, 0.5, slope_rad=slope, mu=mu, g_mps2=G).n_stops > 0
         low, high = (low, middle) if moves else (middle, high)
     return 0.5 * (low + high)
@@ -270,7 +270,7 @@ def roof_blocks(record: Record) -> Iterator[KnownBlock]:
 
 def random_blocks() -> Iterator[KnownBlock]:
     """Yield blocks under noise of few samples, which stops and reverses them between samples."""
-    # A fixed seed: every verification has the same blocks.
+    # A fixed seed: every verification uses the same blocks.
     rng = np.random.default_rng(2003)
     for k in range(200):
         ax, az = rng.normal(0.0, 5.0, 8).round(1), rng.normal(0.0, 1.0, 8).round(1)
@@ -314,7 +314,7 @@ def claims(errors: pd.DataFrame) -> Iterator[Verified]:
     for method in METHODS.values():
         for kind in (RANDOM, ROOF) if method.invalid_when.startswith("Never") else ():
             own_errors = errors.loc[(errors["method"] == method.name) & (errors["motions"] == kind)]
-            # A run without a result is NaN: it must not pass for one without an error.
+            # A run without a result is NaN, which must not pass as a run without error.
             largest = 0.01 * own_errors["error [%]"].max(skipna=False)
             name, is_run = f"{method.title}: {kind}", method in runnable
             yield row(name, 0.0, largest if is_run else math.nan, is_run=is_run)

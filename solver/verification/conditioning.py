@@ -33,7 +33,7 @@ def conditioning(record: Record, *, quick: bool) -> Iterator[Conditioning]:
         ("μ changed by 10⁻⁹, shaking", shaken, 1.0, 1e-9, wide),
         ("μ changed by 5%, shaking", design, 1.0, 0.05, wide),
     ):
-        # One sweep for all three: its runs are those of the exact method, to the bit.
+        # One sweep for all three; its runs are bit-identical to those of the exact method.
         prd_m, less_m, more_m = sweep(
             record.a_mps2,
             record.dt_s,

@@ -101,7 +101,7 @@ def _permit_sheet() -> Iterator[Verified]:
     ):
         found_m = required_separation(rules, kind, design_m=delta_m, importance=1.0)
         name, found_ft = f"Separation from a neighbor, ASCE 7-16: {kind}", found_m / _FOOT
-        # Half the last digit that the sheet prints.
+        # Half of the last digit printed on the sheet.
         yield Verified("DV-8", _SHEET, "Separation", "ft", name, feet, found_ft, 0.005 / feet)
     for s_ds_g, factor in ((1.5, 0.133 * 1.5), (0.5, 0.1)):
         found_lb = interconnection_strength_n(rules, s_ds_g=s_ds_g, w1_n=1000.0)
@@ -146,7 +146,7 @@ def _spectrum() -> Iterator[Verified]:
     source = "1 + exp(−ζ π / √(1 − ζ²)); sampled at 0.001 s"
     expected = 1.0 + math.exp(-zeta * math.pi / math.sqrt(1.0 - zeta**2))
     for period_s in (0.1, 1.0):
-        # The peak is at half a period; three leave no doubt.
+        # The peak is at half a period; three periods are sufficient.
         spectrum = response_spectrum(np.ones(round(3.0 * period_s / dt)), dt, [period_s])
         name = f"Unit step, {equation('T', period_s, 's')}, {equation('ζ', zeta)}"
         yield Verified("DV-6", source, "S_a / a", "1", name, expected, float(spectrum[0]), 1e-5)

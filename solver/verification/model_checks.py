@@ -94,7 +94,7 @@ def _turned(triple: Motion) -> Iterator[Verified]:
     case = MODEL_CASES[0]
     flat = scene_of(triple, case, coulomb(case.mu))
     plain = two_axes.run(flat, TIGHT)
-    # On a flat roof alone: a slope has an axis of its own, along which N changes.
+    # Only on a flat roof: on a slope, N depends on the direction of the acceleration.
     for degrees in (30.0, 137.0):
         turned = two_axes.run(_turned_by(flat, degrees), TIGHT)
         back = _turn(np.array([turned.residual_m, turned.residual_across_m]), -degrees)
@@ -135,7 +135,7 @@ def _circle() -> Iterator[Verified]:
     # Linear interpolation between samples reduces the amplitude of a sine by this factor.
     a *= (math.sin(0.5 * omega * dt) / (0.5 * omega * dt)) ** 2
     speed = math.sqrt(a * a - (mu * STANDARD_GRAVITY_MPS2) ** 2) / omega
-    # Half a turn earlier the block was at the opposite point of its circle.
+    # Half a cycle earlier the block was at the opposite point of its circular path.
     half = history.u_m.size - 1 - count // 2
     across = math.hypot(
         history.u_m[-1] - history.u_m[half], history.across_m[-1] - history.across_m[half]
@@ -157,8 +157,7 @@ def stopped_scene() -> Scene:
 def _stop() -> Iterator[Verified]:
     scene = stopped_scene()
     history = two_axes.run_history(scene, TIGHT)
-    # From sample 6 on the drive is constant; how the block came to its speed there is of no
-    # account.
+    # From sample 6 the drive is constant; the velocity there is taken from the run.
     start, push, c = 6, 2.0, 0.4 * STANDARD_GRAVITY_MPS2
     vx, vy = float(history.v_mps[start]), float(history.across_mps[start])
     w, along = math.hypot(vx, vy), push * vy
@@ -237,7 +236,7 @@ def _left_out(triple: Motion, *, quick: bool) -> Verified:
             choice = model_selection.solve(scene)
             change = abs(two_axes.run(scene, TIGHT).prd_m - choice.result.prd_m)
             stated_m = 0.0 if choice.model is Model.TWO_AXES else choice.next_effect_m
-            # Not >: NaN, a run without a displacement, counts as well.
+            # Not >: a run without a displacement (NaN) counts as well.
             over += not change <= stated_m + choice.result.error_m
             count += 1
     name = f"Effect of the neglected component: {triple.id}, {count} cases"
@@ -249,7 +248,7 @@ def _left_out(triple: Motion, *, quick: bool) -> Verified:
 def _random_pairs(*, quick: bool) -> Iterator[Verified]:
     source = "Both runs of a pair have a result, and they agree within the sum of their error "
     row = partial(Verified, "TA-11", f"{source}bounds", "Failed pairs", "1")
-    # False is 0 and True is 1: the first number if quick.
+    # False is 0 and True is 1, so this is the first number if quick.
     count = PAIRS[not quick]
     for kind in KINDS:
         if kind not in UNBOUNDED:
@@ -310,5 +309,5 @@ def _against_scipy(triple: Motion, samples: int) -> Iterator[Verified]:
     rows, cosine = samples_of(scene), math.cos(scene.slope_rad)
     for order, name in compiled.items():
         prd, *end, _ = runge_kutta.slide_plane(rows, scene.dt_s, cosine, order, 1e-9)
-        # Ten times their tolerance, which is of the error of a step, not of the run.
+        # Ten times their tolerance, which applies to the error of a step, not of the run.
         yield row(name, 0.0, math.dist(end, (x[-1], y[-1])) / prd, 1e-8)

@@ -38,7 +38,8 @@ LINK_MUS = {
 }
 """Friction coefficients of Figs. 7 and 9, by slope [deg]."""
 
-# Of both signs 29 slopes, with 15 coefficients and 16 peak accelerations: the paper's 6,960 runs.
+# With both signs these are 29 slopes; with 15 coefficients and 16 peak accelerations, 6,960 runs as
+# in the paper.
 SLOPES_DEG = np.arange(0.0, 7.25, 0.5)
 MUS = np.linspace(0.1, 0.8, 15)
 PPAS_G = np.linspace(0.0, 1.5, 16)
@@ -85,7 +86,7 @@ def convergence(record: Record) -> pd.DataFrame:
 def link_comparison(record: Record, slope_deg: float) -> LinkComparison:
     """Compare the exact method with the paper's link (Figs. 6 to 9)."""
     cases = grid([slope_deg], LINK_MUS[slope_deg], [LINK_PPA_G])
-    # Less a rounding of the quotient, which may be just above a whole number.
+    # The quotient may be just above a whole number because of rounding.
     substeps = math.ceil(record.dt_s / LINK_STEP_S - 1e-9)
     link = {"stiffness_per_m": LINK_PER_M, "substeps": substeps}
     runs_m = pd.DataFrame(index=LINK_MUS[slope_deg])

@@ -88,7 +88,7 @@ class Pair:
 
 def pair(kind: str, index: int) -> Pair:
     """Return pair number `index` of a kind; the same on every call."""
-    # A generator of its own for each pair: one that fails can be run again by its number alone.
+    # Each pair has its own generator, so that a failed pair can be run again by its number.
     return KINDS[kind](np.random.default_rng([list(KINDS).index(kind), index]))
 
 

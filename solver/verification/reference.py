@@ -44,7 +44,7 @@ def slide(
     """Integrate the linearly interpolated record from event to event; assumes N >= 0."""
     with localcontext() as context:
         context.prec = DIGITS
-        # A decimal number of a float is its exact binary value: both sides have the same input.
+        # Decimal(float) is the exact binary value, so both computations have the same input.
         theta, friction, g, dt, factor = map(Decimal, (slope_rad, mu, g_mps2, dt_s, scale))
         a_h = [factor * Decimal(a) for a in ax_mps2]
         a_v = [factor * Decimal(a) for a in az_mps2] if az_mps2 is not None else [_ZERO] * len(a_h)
@@ -67,7 +67,7 @@ def _sine_and_cosine(theta: Decimal) -> tuple[Decimal, Decimal]:
     """Return both from their power series."""
     sums, term, n = [_ZERO, _ZERO], Decimal(1), 0
     while abs(term) > _TINY * _TINY:
-        # Even powers are those of the cosine, odd ones of the sine; the signs are + + - -.
+        # Even powers belong to the cosine, odd powers to the sine; the signs are + + - -.
         sums[n % 2] += term if n % 4 < 2 else -term
         n += 1
         term *= theta / n
@@ -135,7 +135,7 @@ def _first_zero(v: Decimal, a: Decimal, rate: Decimal, h: Decimal) -> Decimal | 
         roots = [-v / a] if a != 0 else []
     elif (square := a * a - 2 * rate * v) >= 0:
         roots = [(-a - square.sqrt()) / rate, (-a + square.sqrt()) / rate]
-    # Zero itself is where the slip begins.
+    # t = 0 is excluded: it is the beginning of the slip.
     return min((t for t in roots if _TINY < t <= h), default=None)
 
 

@@ -60,7 +60,7 @@ def verify(
     progress("Generating the project's records")
     records = own_records(quick)
     progress("Checks: closed forms, 50-digit arithmetic, physical checks of the paper")
-    # A list: both the checks of the exact method and those of its rivals read it.
+    # A list, because the checks of the exact method and of its rivals both read it.
     roof = list(chain.from_iterable(map(checks.roof_blocks, records)))
     rows = list(_rows(records[0], roof))
     rivals = checks.rival_errors({checks.RANDOM: [*checks.random_blocks()], checks.ROOF: roof})

@@ -149,6 +149,6 @@ def _errors(record: Record, name: str, cells: Sequence[Sequence[_Cell]]) -> Floa
 
 def _largest_error(record: Record, name: str, cell: _Cell) -> float:
     prd_m = [run(record, case, name, **parameters).prd_m for case, parameters in cell]
-    # NaN, a failed run, is the largest error of its cell: `max` of NumPy returns it.
+    # A failed run is NaN, which `max` of NumPy returns as the error of the cell.
     exact_m = [run(record, case).prd_m for case, _ in cell]
     return float(percent_off(np.array(prd_m), np.array(exact_m)).max())

@@ -200,6 +200,7 @@ def posed(solve: Callable[..., T], record: Record, case: Case) -> partial[T]:
 
 def prepared(record: Record, case: Case) -> AxisScene:
     """Return the input of `Method.follow`, so that only the method is timed."""
+    # `checked.scene` checks the arguments and scales; this is not part of the time of a method.
     return one_axis.prepared(posed(checked.scene, record, case)())
 
 
@@ -219,7 +220,7 @@ def processor_seconds(work: Callable[[], object]) -> float:
     """
     _, once_s = clocked(work, CLOCK)
     # A short run many times: reading the clock takes about as long as one.
-    # The microsecond is for a clock that has not moved in between.
+    # The microsecond avoids division by zero if the clock has not advanced.
     count = 1 + int(BATCH_S / (once_s + 1e-6))
 
     def batch() -> None:

@@ -34,7 +34,7 @@ def own_records(quick: bool) -> tuple[Record, ...]:
     return (*(motion.x for motion in own_suite(quick)), near_fault_pulse())
 
 
-# Records, motions and the timed runs all ask for it; it is made once.
+# Generated once for the records, the motions and the timed runs.
 @lru_cache
 def own_suite(quick: bool) -> tuple[SuiteMotion, ...]:
     """Return the motions whose first components are the records."""
@@ -46,7 +46,7 @@ def near_fault_pulse() -> Record:
     """Return a 2 s pulse with a Gaussian envelope, after Mavroeidis and Papageorgiou (2003)."""
     dt = 0.01
     t = np.arange(801) * dt - 4.0
-    # sin(pi t) has the period of 2 s.
+    # sin(pi t) has a period of 2 s.
     a = np.exp(-((t / 1.2) ** 2)) * np.sin(math.pi * t) * STANDARD_GRAVITY_MPS2
     return Record(name="near-fault-pulse", dt_s=dt, a_mps2=read_only(a))
 
@@ -65,7 +65,7 @@ def shortened(record: Record, duration_s: float) -> Record:
 
 def strongest(energy: Floats, count: int) -> slice:
     """Return the consecutive samples, at most `count`, with the most energy."""
-    # The energy of every window of that length.
+    # Energy of each window of that length.
     sums = np.convolve(energy, np.ones(min(count, energy.size)), "valid")
     first = int(sums.argmax())
     return slice(first, first + count)

@@ -118,7 +118,7 @@ def _measured(
 def times_longer(runs: pd.DataFrame, ours: pd.DataFrame, error: str, time: str = TIME) -> float:
     """Return the least time of runs as accurate as ours, over that of ours: median of the cases."""
     both = runs.merge(ours, on=RUN, suffixes=("", " of ours"))
-    # An error of ours that is zero by chance would leave no rival as accurate.
+    # If our error happened to be zero, no rival would be as accurate.
     near = both[both[error] <= both[f"{error} of ours"].clip(ROUNDING_PERCENT)]
     ratios = near[time] / near[f"{time} of ours"]
     return float(ratios.groupby([near[name] for name in RUN]).min().median())

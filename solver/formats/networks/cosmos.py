@@ -123,8 +123,8 @@ def _heading_problems(source: Source, series: Sequence[_Part]) -> Iterator[str]:
                 f"{source.at(index)}: found a heading without a line ... pts, approx ... secs and"
                 " values; use the complete file"
             )
-    # The first series below each heading: only between the two are the blocks of the heading.
-    # Reversed, because of equal keys a dict keeps the last.
+    # The first series below each heading: the blocks of the heading are between the two. Reversed,
+    # because a dict keeps the last of equal keys.
     for part in {part.first: part for part in reversed(series)}.values():
         starts: list[tuple[int, int, str]] = []
         for index in range(part.first, part.at):
@@ -198,7 +198,8 @@ def _reals(source: Source, part: _Part) -> list[Stated]:
         match = _REALS.search(source.lines[index])
         layout = layout_of(match[3]) if match else None
         if match and layout:
-            # The format has 100; a damaged count must not ask for a thousand million.
+            # The format has 100. The limit prevents a damaged count from requesting a billion
+            # values.
             return header_values(source, index + 1, min(int(match[1]), 1000), layout)
     raise InputError(
         f"{source.at(part.first)}: found no block ... Real-header values follow ...; use the whole"

@@ -111,7 +111,7 @@ def read(source: Source) -> MotionFile:
     if name == "USC":  # a blank begins each line of values of volume 1, and nothing ends them
         skipped = int(volume is _ONE)
         rows = (line[skipped:] for line in source.lines[volume.heading :])
-        # The mark that CSMIP writes is put there, so that one reader serves both.
+        # The end mark of CSMIP is added, so that the same code reads both.
         source = replace(source, lines=[*source.lines[: volume.heading], *rows, "/&"])
     parts = channels.parts_of(source, volume.first)
     if name == "BHRC":
@@ -174,7 +174,7 @@ def _values_of_one(source: Source, part: range) -> Record:
     if len(pairs) < 2:
         raise InputError(f"{source.at(points[0])}: found {len(pairs)} points; enter at least 2")
     times, columns = pairs[:, 0], pairs[:, 1:].T
-    # Five pairs a line, from which messages count.
+    # Each line has five pairs; messages state the line of a time.
     line_of = (first + np.arange(len(times)) // (_PAIRS.per_line // 2)).tolist().__getitem__
     dt_s, columns, notes = sampled(source, times, columns, line_of)
     length = _real(source, part, _ONE, _ONE.length)
@@ -225,8 +225,7 @@ def _step(source: Source, part: range, volume: _Volume, index: int, line: re.Mat
             f"{source.at(exact.index)}: found no step as real number {_STEP_2} of the heading; use"
             " the whole file"
         )
-    # A heading may leave that field zero: then the step in the text above the values is all there
-    # is.
+    # The field may be zero; then only the text above the values states the step.
     if not exact.value > 0.0:
         return stated
     channels.check_steps(source, stated, exact)
@@ -242,7 +241,7 @@ def _search(
     source: Source, part: range, pattern: re.Pattern[str]
 ) -> tuple[int, re.Match[str]] | None:
     """First line of a channel's heading that contains the pattern."""
-    # The heading of volume 2 is the longer one: values are not searched.
+    # The longer heading is that of volume 2; the values below it are not searched.
     for index in part[: _TWO.heading + 1]:
         if match := pattern.search(source.lines[index]):
             return index, match

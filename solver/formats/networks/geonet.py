@@ -63,7 +63,7 @@ def _component(source: Source, part: range, is_raw: bool) -> Record:
     integers = header_values(source, part.start + _TEXT, _WHOLES, _WHOLE)
     real = header_values(source, part.start + _TEXT + _WHOLE.lines(_WHOLES), _REALS, _WHOLE)
     count = integers[_ACCELERATIONS - 1]
-    # A blank field is NaN, which no comparison holds for; damaged digits may be any number.
+    # A blank field is NaN, for which the comparison is false; damaged digits may give any number.
     if not 0.0 <= count.value < 1e8:
         raise InputError(
             f"{source.at(count.index)}: found no number of accelerations; use the complete file"
@@ -133,7 +133,7 @@ def _rest(source: Source, part: range, integers: Sequence[Stated]) -> tuple[str,
     counts = [integers[place - 1].value for place in (_VELOCITIES, _DISPLACEMENTS)]
     counts = [count for count in counts if 0.0 < count < 1e8]
     lines = sum(_WHOLE.lines(int(count)) for count in [integers[_ACCELERATIONS - 1].value, *counts])
-    # Each series begins on a line of its own.
+    # Each series begins on a new line.
     end = part.start + _HEADING + lines
     if end <= part.stop:
         channels.check_only_blank(source, end, part.stop, "the values of a component")

@@ -170,11 +170,11 @@ def _heading(source: Source) -> _Heading:
         for name, pattern in _ENTRIES.items():
             if match := pattern.fullmatch(line.strip("# ")):
                 value = match[2]
-                # What begins after two blanks is the next entry of the line, if a colon or equals
-                # sign follows it.
+                # Text after two blanks is the next entry of the line if a colon or an equals sign
+                # follows.
                 next_entry = _NEXT.search(value, 0, max(value.rfind(":"), value.rfind("="), 0))
                 value = value[: next_entry and next_entry.start()].strip()
-                # All of them: CWA states the peak of each component in a line of its own.
+                # All are kept: CWA states the peak of each component on a separate line.
                 entries.setdefault(name, []).append((match[1], value, index))
     return _Heading(entries=entries, steps=steps, first=len(source.lines))
 

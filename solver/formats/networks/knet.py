@@ -68,7 +68,7 @@ def _csv(source: Source, top: int) -> MotionFile:
         _component(source, top, head, dt_s, values)
         for head, values in zip(heads[2:], columns, strict=True)
     ]
-    # Channels of KiK-net are NS1 to UD2, those of K-NET N-S, E-W and U-D.
+    # KiK-net names its channels NS1 to UD2, K-NET names them N-S, E-W and U-D.
     form = "KiK-net CSV" if channels[0].name[-1:].isdecimal() else "K-NET CSV"
     notes += _length_notes(source, len(table) * dt_s)
     return motion_file(source, form, channels, notes, time_in(rows[0][1][0], _START))
@@ -104,7 +104,7 @@ def _counts(source: Source) -> MotionFile:
     duration = _number(source, "Duration Time(s)")
     _, memo = _entry(source, "Memo.")
     dt_s = source.step(Stated(value=1.0 / rate.value, index=rate.index))
-    # The format states no count.
+    # The format does not state a count.
     count = round(duration.value * rate.value)
     block = Block(first=memo + 1, stop=len(source.lines), count=count, promised=duration.index)
     values = free_values(source, block) * _scale(source)

@@ -128,7 +128,7 @@ def _uneven(source: Source, block: Block, scale: float) -> Record:
             raise InputError(
                 f"{source.at(index)}: found {number} values; enter pairs of time and acceleration"
             )
-        # A line of pairs stands for as many times, so that a message on a time names its line.
+        # The line number is repeated for each pair, so that a message about a time states its line.
         rows += [index] * (number // 2)
     pairs = values.reshape(-1, 2)
     if len(pairs) < 2:
