@@ -141,10 +141,10 @@ def member_look(count: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def legend_below(axes: Axes, down: float, columns: int, **look: Any) -> None:
-    """Add a legend below the axes, down by a share of their height."""
+def legend_below(axes: Axes, columns: int, **look: Any) -> None:
+    """Add a legend below the axes and their labels."""
     look = {"handlelength": 2.4, "columnspacing": 1.0} | look
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -down), ncols=columns, **look)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.22), ncols=columns, **look)
 
 
 def panels(

@@ -143,7 +143,7 @@ def building(verification: Verification) -> Section:
 def _roof(roof: RoofComparison, chart: str) -> Mapping[str, object]:
     """Return what is shown of a building."""
     reference, ratios = _reference(roof).lower(), _ratios(roof)
-    shown = f", and {stability_maps.SHOWN_S:g}{NO_BREAK}s of the roof acceleration"
+    history = f", and {stability_maps.SHOWN_S:g}{NO_BREAK}s of the roof acceleration"
     spectra = "response spectra of ground, roof and computed roof motions"
     return {
         "title": roof.title,
@@ -151,7 +151,7 @@ def _roof(roof: RoofComparison, chart: str) -> Mapping[str, object]:
         "ratios": ratios,
         "properties": _properties(roof),
         "chart": chart,
-        "caption": f"{roof.title}: {spectra}{shown if ratios else ''}.",
+        "caption": f"{roof.title}: {spectra}{history if ratios else ''}.",
         "alt": f"Response of the roof, {reference} and computed",
         "bands": _bands(roof),
         "reference": reference,

@@ -178,7 +178,7 @@ def _family(axes: Axes, x: Floats, family: Sequence[tuple[str, Floats]]) -> None
     draw_family(axes, x, ((label, 1e3 * prd_m) for label, prd_m in family), clip_on=False)
     axes.set_ylim(0.0, None)
     axes.set_xlim(x[0], x[-1])
-    legend_below(axes, 0.22, 4)
+    legend_below(axes, 4)
 
 
 def contours(study: DesignCurves) -> str:

@@ -43,7 +43,7 @@ def _packed(content: bytes) -> str:
 def _motions(motions: Sequence[Motion]) -> dict[str, Any]:
     """Return the samples of all motions, bit for bit."""
     parts = [(motion.ax_mps2, motion.ay_mps2, motion.az_mps2) for motion in motions]
-    samples = np.concatenate([part for each in parts for part in each])
+    samples = np.concatenate([part for components in parts for part in components])
     counts = np.round(samples / STANDARD_GRAVITY_MPS2 * _PER_G)
     # To the last bit: the browser computes in this order, and must get the numbers of the package.
     is_whole = np.array_equal(counts / _PER_G * STANDARD_GRAVITY_MPS2, samples)
@@ -57,7 +57,7 @@ def _motions(motions: Sequence[Motion]) -> dict[str, Any]:
         "per_g": _PER_G if is_whole else 0,
         "samples": _packed(content),
         "listed": [
-            {"dt_s": motion.dt_s, "sizes": [part.size for part in each]}
-            for motion, each in zip(motions, parts, strict=True)
+            {"dt_s": motion.dt_s, "sizes": [part.size for part in components]}
+            for motion, components in zip(motions, parts, strict=True)
         ],
     }

@@ -121,16 +121,17 @@ def _smallest_words(margins: Sequence[Margin]) -> str:
     # The more of the friction is needed, the smaller the margin.
     smallest = max(margins, key=_share)
     law, percent_less = smallest.array.array.friction, 100.0 * (1.0 - _share(smallest))
-    of = f"μ of {smallest.array.id}"
+    mu_text = f"μ of {smallest.array.id}"
     if percent_less:
         remains = (
-            f"It remains satisfied with {of} reduced by {number(percent_less, 1)}%, from "
+            f"It remains satisfied with {mu_text} reduced by {number(percent_less, 1)}%, from "
             f"{mu_words(law)} to {_least(smallest)}."
         )
     else:
-        at = " at low velocity" if law.is_by_velocity else ""
+        slow = " at low velocity" if law.is_by_velocity else ""
         # The search is in hundredths: its first step down fails.
-        remains = f"It is no longer satisfied with {of}, {mu_words(law)}, reduced by 0.01{at}."
+        changed = f"{mu_text}, {mu_words(law)}, reduced by 0.01{slow}"
+        remains = f"It is no longer satisfied with {changed}."
     return (
         f"The smallest friction margin is at clearance No. {smallest.number}, "
         f"{' to '.join(smallest.gap.between)}. {remains}"

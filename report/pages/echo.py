@@ -107,10 +107,10 @@ def _parts_of_table(rows: Sequence[EchoRow], changed: Set[str]) -> Iterator[_Ech
     blank = [cells[0] for cells in columns.values() if all(_is_in_note(r, changed) for r in cells)]
     filled = [cells for cells in columns.values() if cells[0] not in blank]
     equal = [cells[0] for cells in filled if _is_equal(cells, len(lines), changed)]
-    shown = [cells for cells in filled if cells[0] not in equal]
+    printed = [cells for cells in filled if cells[0] not in equal]
     alike = [f"{_column_letters(row)} {row.label} {_as_entered(row, row.unit)}" for row in equal]
     # The notes stand below the last part. Where all columns are in them, one stands for the rows.
-    *chunks, last = list(_chunks(shown)) or [[filled[0]]]
+    *chunks, last = list(_chunks(printed)) or [[filled[0]]]
     for chunk in chunks:
         yield _columns(lines, chunk, changed), (), ()
     left_blank = [_blank(row, _column_letters(row)) for row in blank]

@@ -160,7 +160,7 @@ def _sources(motions: Sequence[Motion]) -> Mapping[str, Sequence[str]]:
     # Then the table has a column for it, and a list by source would repeat the table.
     if len(by_source) == len(motions) > 1:
         return {}
-    return {source: [motion.id for motion in of] for source, of in by_source.items()}
+    return {source: [motion.id for motion in group] for source, group in by_source.items()}
 
 
 def _motion_table(package: PackageData, *, has_sources: bool) -> tuple[Table, Mapping[str, str]]:

@@ -103,10 +103,10 @@ def prescribed(results: StudyResults, building: int, prescribed: Prescribed) -> 
     )
 
 
-def _share(part: int, whole: int) -> str:
+def _share(part: int, total: int) -> str:
     if not part:
         return "none"
-    return f"all {whole:,}" if part == whole else f"{part:,}"
+    return f"all {total:,}" if part == total else f"{part:,}"
 
 
 def _extent(results: StudyResults, cases: NDArray[np.bool_]) -> str:

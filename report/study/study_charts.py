@@ -210,7 +210,7 @@ def fragilities(states: Sequence[LimitState], along: str) -> str:
         axes.set_xlim(0.0, levels[-1])
         axes.set_ylim(0.0, 1.02)
         labeled(axes, along, "Probability of exceedance")
-        legend_below(axes, 0.22, 3, handlelength=2.0, columnspacing=0.8)
+        legend_below(axes, 3, handlelength=2.0, columnspacing=0.8)
         return svg_text(figure)
 
 
@@ -344,5 +344,5 @@ def lives(array_years: ArrayYears, unit: Unit) -> str:
         top = float(max((distances[0] > 0.0).mean() for distances in array_years.lives.values()))
         axes.set_ylim(0.0, 1.05 * top or 1.0)
         labeled(axes, f"Distance from the installed place [{unit.symbol}]", "Share of lives beyond")
-        legend_below(axes, 0.22, 3, handlelength=2.6)
+        legend_below(axes, 3, handlelength=2.6)
         return svg_text(figure)

@@ -65,7 +65,7 @@ def closed_forms() -> Iterator[Verified]:
     yield from _pulses_on_a_slope()
     yield from _half_sines()
     yield _harmonic()
-    yield _free_slide("CF-7", 7.0, 0.1, 2.0)
+    yield _free_slide("CF-7", 2.0)
     yield from _yield_accelerations()
     yield _self_locking()
 
@@ -149,14 +149,12 @@ def _harmonic() -> Verified:
     )
 
 
-def _free_slide(id: str, degrees: float, mu: float, time_s: float) -> Verified:
-    slope = math.radians(degrees)
+def _free_slide(id: str, time_s: float) -> Verified:
+    slope, mu = math.radians(7.0), 0.1
     steps = round(time_s / 0.01)
     result = slide(np.zeros(steps + 1), 0.01, slope_rad=slope, mu=mu, g_mps2=G)
     expected = reference.free_slide_travel(slope, mu, time_s, G) * math.cos(slope)
-    name = (
-        f"No shaking, slope {degrees:g} deg, {equation('μ', mu)}: slides from rest for {time_s:g} s"
-    )
+    name = f"No shaking, slope 7 deg, {equation('μ', mu)}: slides from rest for {time_s:g} s"
     source = "0.5 (g sin(θ) − μ g cos(θ)) t², the paper's physical check 2"
     return Verified(id, source, *_DOWNSLOPE, name, expected, result.down_m)
 
@@ -204,7 +202,7 @@ def physical_checks(record: Record) -> Iterator[Verified]:
     expected = reference.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)
     loose = slide(trapezoid(-0.6 * G, 30, 900), dt, slope_rad=slope, mu=1.0, g_mps2=G)
     yield row(f"A pulse of 0.6{NO_BREAK}g for 0.3 s causes slip", expected, loose.prd_m)
-    yield _free_slide("PH-2", 7.0, 0.1, 5.0)
+    yield _free_slide("PH-2", 5.0)
     down, up = (run(record, Case(slope_deg, 0.4, 1.5)) for slope_deg in (4.0, -4.0))
     yield Verified(
         "PH-3",
