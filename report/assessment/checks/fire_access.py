@@ -113,7 +113,7 @@ def of_sections(data: ProjectInput) -> Iterator[Check]:
         title="Section of the fire code",
         arrays=tuple(rows),
         found=section or NOT_GIVEN,
-        limit="the section on rooftop arrays",
+        limit="section on rooftop arrays",
         clause="fire code",
         is_satisfied=bool(section),
         remedy="Enter the section of the fire code on the Site worksheet.",

@@ -221,7 +221,8 @@ def _drift(motion: PreparedMotion, index: int) -> Check:
         is_satisfied=not drifts(motion),
         is_capacity=False,
         note=f"permanent by {motion.drift_basis}" if motion.drift_basis else "",
-        remedy=f"A permanent displacement is computed as slip. {STAYS}"
+        remedy="Obtain acceptance of the permanent displacement, which is computed as slip. "
+        + STAYS
         if motion.drift_basis
         else "Correct the baseline of the record, whose drift is computed as slip, or state on the "
         "Motions worksheet who determined the permanent displacement, and the source.",

@@ -59,4 +59,4 @@ NOT_GIVEN = "not entered"
 NO_DESIGN = "unknown without a permitted design displacement"
 
 # Of a remedy whose outcome the workbook has no cell for: no input takes the condition away.
-STAYS = "It remains listed for the plan checker's decision."
+STAYS = "This condition remains listed for the plan checker's decision."
