@@ -195,7 +195,7 @@ def test_a_finding_names_the_cells_that_are_missing_or_wrong(case):
 @pytest.mark.quick
 def test_cells_of_a_drift_and_of_several_values_are_printed(tmp_path):
     path = workbooks.make(tmp_path)
-    drift = "".join(f"{2.0 if 20 < i < 60 else 0.0}\n" for i in range(200))
+    drift = "".join(f"{2.0 if 20 < i < 60 else -0.01}\n" for i in range(200))
     (tmp_path / "records" / "z.csv").write_text(drift)
     found = [
         line
