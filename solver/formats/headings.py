@@ -165,6 +165,7 @@ def _check_first(source: Source, first: int, fields: Sequence[str]) -> None:
             " before every other line of text"
         )
         raise InputError(f"{source.at(first)}: {problem}")
+    # The date and the time of day may be two columns.
     if any(map(_CLOCK.fullmatch, fields[:2])):
         raise InputError(
             f"{source.at(first)}: found {quoted(fields[0])}, a date or a time of day; enter seconds"

@@ -337,6 +337,7 @@ def slide_fixed(g, dt, cs, substeps):
     sx = sy = vx = vy = prd = 0.0
     for i in range(g.shape[0] - 1):
         for j in range(substeps):
+            # The forces at the beginning of a sub-step act throughout it, as in the paper.
             part = j / substeps
             gx = g[i, 0] + (g[i + 1, 0] - g[i, 0]) * part
             gy = g[i, 1] + (g[i + 1, 1] - g[i, 1]) * part

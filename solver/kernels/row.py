@@ -52,6 +52,7 @@ STEP = 8.0
 
 # Past every step, whose time goes from 0 to 1.
 NEVER = 2.0
+# Iterations of a search for an event; then it is resumed from where it ended.
 NEWTON = 200
 
 # Rows of series in b[row, block or link, power]: velocity, push without friction; stretch, tension.

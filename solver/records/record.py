@@ -27,6 +27,7 @@ _ALONE = 3.0  # a code for missing data / all other samples, at least: shaking r
 # integers.
 _CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")
 _SHORT_CODES = {"99", "-99"}  # where no shaking is as large
+# Only larger samples can be a short code: 99 m/s2 is 10.1 g, 99 cm/s2 is 0.1 g.
 _NO_SHAKING_G = 9.0
 
 # Acceleration units and their value in m/s2.

@@ -177,6 +177,7 @@ def capacities(
         to_end=to_end,
     )
     with ThreadPoolExecutor(THREADS) as pool:
+        # The five fields of `Capacities`, for each motion and limit.
         rows = np.array(list(pool.map(of_motion, curves))).reshape(len(curves), len(limits_m), 5)
     return tuple(
         Capacities(

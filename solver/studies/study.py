@@ -200,6 +200,7 @@ def study(
         axis("mus", mus, 0.0, math.inf, problems),
         axis("intensities", intensities, 0.0, math.inf, problems),
     ]
+    # `minimum_friction` and `fragility` rely on increasing friction and intensity.
     if any((np.diff(values) <= 0.0).any() for values in axes):
         problems.append("slopes_rad, mus, intensities: use each value once, in increasing order")
     if problems:

@@ -109,6 +109,7 @@ _LEAST, _AIM, _MOST = 1.0, 1.02, 1.05
 # that no peak is below the target, wherever it is.
 _CLOSE = 1.048
 _SHAPINGS = 6
+# As the points of the acceptance, which are at most 1/24 octave apart.
 _PER_OCTAVE = 24
 # Spectra have sharp minima between the matched frequencies: from the fourth correction on they are
 # looked for after every second, at so many points of an octave, and matched as well.
@@ -127,6 +128,7 @@ _DECAYED, _BLOCK = 1e-3, 500
 _Samples = NDArray[np.int64]
 
 _G = UNITS["g"]
+# The last decimal that `write_record` prints.
 _QUANTUM_G = 10.0 ** -DECIMALS["g"]
 
 

@@ -186,6 +186,7 @@ def _market_street(folder: Path) -> FloorRecords:
     records = [
         read_record(folder / f"SF575Market_LomaPrieta_{name}.csv", units="g") for name in names
     ]
+    # The three records have different lengths; a common start is assumed (see the description).
     n = min(record.a_mps2.size for record in records)
     ground, *floors = (record.a_mps2[:n] for record in records)
     code_period_s = approximate_period_s("steel moment frame", 573.0 * FOOT_M)

@@ -197,6 +197,7 @@ def physical_checks(record: Record) -> Iterator[Verified]:
     slope, dt = math.radians(30), 0.01
     row = partial(Verified, "PH-1", "Paper, Physical Checks (1): slope 30 deg, μ = 1", "PRD", "m")
     still = slide(np.zeros(500), dt, slope_rad=slope, mu=1.0, g_mps2=G)
+    # A tolerance of zero: a block that does not move has no rounding error.
     yield row("No shaking: no slip", 0.0, still.prd_m, 0.0)
     drive, resist = reference.slope_pulse(slope, 1.0, 0.6, 0.0, G)
     expected = reference.pulse_travel(drive, resist, 0.3, dt) * math.cos(slope)

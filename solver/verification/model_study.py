@@ -124,6 +124,7 @@ def study(triples: Sequence[Motion], *, quick: bool) -> ModelStudy:
     scenes = scenes_of(triples, grid(slopes, mus, ppas), headings)
     results = [two_axes.run(scene) for scene in scenes]
     answered = [result for result in results if not math.isnan(result.prd_m)]
+    # A block that does not slip has no error.
     errors = (result.error_m / result.prd_m if result.prd_m else 0.0 for result in answered)
     changes = _changes(
         scenes, np.array([result.prd_m for result in results]), (len(triples), len(headings))

@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 DIGITS = 50
 
+# Smaller values are treated as rounding error: with 50 digits, that of a value near 1 is 1e-50.
 _TINY = Decimal("1e-45")
 _ZERO = Decimal(0)
 

@@ -78,6 +78,7 @@ def near_rest_maps(record: Record, name: str, *, quick: bool) -> Iterator[Stabil
     """Map sub-step against slope and against friction, near the limit of free sliding."""
     slopes = SLOPE_DEG + np.linspace(-2.0, 2.0, 17 if quick else 41)
     mus = CRITICAL_MU * np.linspace(0.5, 2.0, 16 if quick else 46)
+    # From 256 sub-steps to 1, as in the paper's convergence study.
     substeps = 2 ** np.arange(8, -1, -2 if quick else -1)
     still = (
         f"μ = tan {SLOPE_DEG:g}°, PPA = {PPA_G:g} g. Line: θ = atan μ; on steeper slopes the block "
@@ -109,6 +110,7 @@ def near_rest_maps(record: Record, name: str, *, quick: bool) -> Iterator[Stabil
 
 def step_limit_maps(record: Record, *, quick: bool) -> Iterator[StabilityMap]:
     """Map where two axes end without a result: sampling interval against rate of friction laws."""
+    # Up to a law that reaches its final coefficient within a few nanometers per second.
     rates = np.geomspace(1e1, 1e9, 9 if quick else 17)
     steps_s = np.geomspace(0.5, 0.005, 3 if quick else 9)
     case, fast = CASES[0], 1.5

@@ -219,9 +219,11 @@ def _columns(source: Source, heading: _Heading, stop: int, width: int) -> Floats
             raise InputError(
                 f"{source.at(index)}: found {quoted(text)}; enter the number of values"
             )
+        # With several columns, the number of lines is stated.
         count = width * int(number)
     block = Block(first=heading.first, stop=stop, count=count, promised=index)
     values = free_values(source, block)
+    # Full lines only: the last one may be short.
     table = values[: values.size // across * across].reshape(-1, across)
     if width == 1 < across and rising(table):
         raise InputError(f"{source.at(heading.first)}: {remedy(table)}")

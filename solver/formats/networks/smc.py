@@ -84,6 +84,7 @@ def _block(source: Source, integers: Sequence[Stated]) -> tuple[Block, tuple[str
     """Lines of the values, after the comments, with a note where these are more than stated."""
     comments, count = integers[_COMMENTS - 1], integers[_COUNT - 1]
     for number, meaning in ((comments, "lines of comment"), (count, "values")):
+        # A blank field is NaN, for which the comparison is false.
         if not 0.0 <= number.value < 1e8:
             raise InputError(
                 f"{source.at(number.index)}: found no number of {meaning}; use the complete file"
