@@ -79,7 +79,7 @@ def component_id(results: StudyResults, result: ArrayStudyResult) -> str:
 
 def _component(results: StudyResults, result: ArrayStudyResult) -> Row:
     demand, unit, _ = DEMANDS[results.plan.input.study.intensity]
-    comments = _comments(results, result)
+    comments = spaced(" ".join(_remarks(results, result)))
     # Complete (Incomplete 0), no offset of the floor, and of no direction.
     row = [component_id(results, result), 0, demand, unit, 0, 0, comments]
     # Those that are known, without a gap: pelicun fails where the first state is blank, and counts
@@ -96,12 +96,8 @@ def _component(results: StudyResults, result: ArrayStudyResult) -> Row:
     return [*row, *blank]
 
 
-def _comments(results: StudyResults, result: ArrayStudyResult) -> str:
-    """Return what the array, its measure and its dispersions are, and every warning."""
-    return spaced(" ".join(_remarks(results, result)))
-
-
 def _remarks(results: StudyResults, result: ArrayStudyResult) -> Iterator[str]:
+    """Yield what the array, its measure and its dispersions are, and every warning."""
     study, array = results.plan.input.study, result.plan.array
     roof = f"friction coefficient {result.plan.mu:g}, slope {array.slope_deg:g} deg"
     yield f"Mat {array.mat}, {roof}, clearance {both(results, array.clearance_m)}."
