@@ -20,7 +20,7 @@ from report.project.read.archive import OpenBook, open_book
 from report.project.read.locate import find_table
 from report.project.read.positions import CellPosition, found_at
 from report.project.workbook import SECTIONS
-from report.project.workbook.entries import SheetSection
+from report.project.workbook.entries import Entry, SheetSection
 from report.text.typed_letters import cut
 from solver.errors import InputError, Problem
 
@@ -40,6 +40,7 @@ def _shown(path: Path, book: OpenBook | None, equal: Sequence[Problem]) -> Mappi
     first = equal[0]
     sheet, _, address = first.where.rpartition("!")
     cell = address if sheet else ""
+    cells = listed(part.where.removeprefix(f"{sheet}!") for part in equal)
     return {
         "file": path.name,
         "text": line_of(equal),
@@ -47,7 +48,8 @@ def _shown(path: Path, book: OpenBook | None, equal: Sequence[Problem]) -> Mappi
         "remedy": first.remedy,
         "sheet": sheet,
         "cell": cell,
-        "cells": listed(part.where.removeprefix(f"{sheet}!") for part in equal) if sheet else "",
+        "where": first.where,
+        "place": f"{sheet}!{cells}" if sheet else "",
         "row": _row(book, sheet, cell) if book and cell else None,
     }
 
@@ -120,6 +122,7 @@ def _table(book: OpenBook, section: SheetSection) -> Mapping[str, Any]:
         },
     )
     texts = {row: [_text(book, title, row, number) for number in entries] for row in table.rows}
+    heads = {number: _text(book, title, table.heading.row, number) for number in entries}
     filled = [row for row, cells in texts.items() if any(cells)]
     after = max([table.heading.row, *filled]) + 1
     return {
@@ -127,21 +130,26 @@ def _table(book: OpenBook, section: SheetSection) -> Mapping[str, Any]:
         "is_open": section.key == "arrays" and not filled,
         "heads": [
             {
-                "text": _text(book, title, table.heading.row, number),
+                "text": heads[number],
                 "need": entry.needed,
                 "help": entry.note,
-                "choices": list(entry.choices),
             }
             for number, entry in entries.items()
         ],
         "rows": [
             [
-                {"cell": CellPosition(title, row, number).cell, "text": text}
+                _field(CellPosition(title, row, number), text, heads[number], entries[number])
                 for number, text in zip(entries, texts.get(row, [""] * len(entries)), strict=True)
             ]
             for row in [*filled, *range(after, after + _BLANK_ROWS)]
         ],
     }
+
+
+def _field(position: CellPosition, text: str, head: str, entry: Entry) -> Mapping[str, Any]:
+    where = f"{position.sheet}!{position.cell}"
+    label, choices = f"{head}, {where}", list(entry.choices)
+    return {"where": where, "text": text, "label": label, "choices": choices}
 
 
 def typed_cells(typed: Mapping[str, str]) -> Mapping[CellPosition, float | str | None]:

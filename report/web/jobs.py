@@ -84,7 +84,9 @@ def state(workbook: Path, job: Json) -> Json:
             "answer": None,
             "problems": rows,
             "html": {
-                "problems": parts().problems(list(by_remedy.values())),
+                "problems": parts().problems(
+                    [(group[0], group[1:]) for group in by_remedy.values()]
+                ),
                 "fields": parts().fields(tables(workbook)),
             },
             "lacks": _lacks(workbook),
@@ -159,7 +161,8 @@ def _drawing(workbook: Path) -> Json | None:
         drawing["refused"] = error.problems[0]
     else:
         layers = sorted({line.layer for line in drawn_file.lines})
-        drawing["unit"] = drawn_file.unit
+        unit = drawn_file.unit
+        drawing["stated"] = f"{unit}, as the drawing states" if unit else "choose"
         drawing["layers"] = [
             {
                 "layer": layer,

@@ -6,7 +6,7 @@ Computes nothing and contains no text: `parts.html` has a macro for each element
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,17 @@ from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup, escape
 
 _SUBSCRIPT = re.compile(r"\b([A-Z])_(\w{1,3})\b")
+_TERMS = {
+    "Mean PRD": "Mean of the peak relative displacement (PRD) of the array under the motions. The "
+    "PRD is the largest distance of the array from its start during one motion.",
+    "Design Δ": "Design displacement: what the separations are computed from. It is that of the "
+    "analysis with its factor and its floor, or the prescriptive displacement.",
+    "Prescriptive": "Displacement of the prescriptive procedure, which needs no motions.",
+    "D/C": "Demand / capacity: required / provided clearance. More than 1.00 is NG.",
+    "Verdict": "OK; NG: not satisfied; Condition: satisfied once the condition is closed.",
+    "Provided": "Clearance that is there, from the workbook.",
+    "Required": "Separation that the design displacements require.",
+}
 _SENT = ("verdict", "line", "verdict_text", "model_text", "next", "pending", "tips")
 
 
@@ -25,20 +36,41 @@ def drawn(answer: Mapping[str, Any]) -> dict[str, Any]:
     lengths = [line["length_m"] for chart in bars.values() for line in chart["lines"]]
     lengths += [row["prd_m"] for chart in bars.values() for row in chart["rows"]]
     scale_m = max(filter(None, lengths), default=1.0)
+    verdict, worst, reasons = answer["verdict"], answer["worst"], answer["reasons"]
+    line = worst["text"] if worst else ""
+    if verdict and verdict["look"] == "provisional":
+        line = answer["line"]
+    # Of no capacity the bar of the D/C is full.
+    ratio = worst["ratio"] if worst else None
+    share = 1.5 if ratio is None else min(ratio, 1.5)
     return {name: answer[name] for name in _SENT} | {
-        "count": sum(reason["level"] != "remedy" for reason in answer["reasons"]),
+        "count": sum(reason["level"] != "remedy" for reason in reasons),
         "plan": {name: plan[name] for name in ("size_px", "rooms_px")},
         "html": {
-            "headline": make.headline(answer) if answer["verdict"] else "",
-            "worst": make.worst(answer["worst"]),
+            "headline": make.headline(verdict, line) if verdict else "",
+            "worst": make.worst(worst, share, round(100.0 * share, 1)),
             "reasons": make.reasons(answer),
-            "warnings": make.warnings(answer),
+            "warnings": make.warnings([row for row in reasons if row["level"] == "warning"]),
             "arrays": make.arrays(answer["arrays"]),
             "clearances": make.clearances(answer["clearances"]),
-            "bars": {id: make.bars(chart, scale_m) for id, chart in bars.items() if chart["rows"]},
+            "bars": {
+                id: make.bars(
+                    chart["caption"],
+                    _placed(chart["rows"], "prd_m", scale_m),
+                    _placed(chart["lines"], "length_m", scale_m),
+                )
+                for id, chart in bars.items()
+                if chart["rows"]
+            },
             "plan": make.plan(plan),
         },
     }
+
+
+def _placed(items: Sequence[Mapping[str, Any]], key: str, scale_m: float) -> list[dict[str, Any]]:
+    """Return bars or lines, each with its end on a scale of 100 if it has one."""
+    ends = [None if item[key] is None else round(100.0 * item[key] / scale_m, 2) for item in items]
+    return [{**item, "x": end} for item, end in zip(items, ends, strict=True)]
 
 
 @cache
@@ -51,6 +83,7 @@ def parts() -> Any:
         lstrip_blocks=True,
     )
     environment.filters["subscripted"] = subscripted
+    environment.globals["TERMS"] = _TERMS
     return environment.get_template("parts.html").module
 
 

@@ -26,9 +26,9 @@ def state(path):
     return jobs.perform({"do": "state", "workbook": str(path)})["answer"]
 
 
-def row(sheet, table, values):
+def row(table, values):
     """The first row of a table with values, by cell."""
-    cells = (f"{sheet}!{one['cell']}" for one in table["rows"][0])
+    cells = (one["where"] for one in table["rows"][0])
     return dict(zip(cells, values, strict=True))
 
 
@@ -61,18 +61,14 @@ def test_a_blank_workbook_is_filled_in_until_it_opens(tmp_path, units):
     path = blank(tmp_path / "input.xlsx", units)
     first = state(path)
     assert (first["project"], first["lacks"]) == (None, ["arrays"])
-    missing = {f"{problem['sheet']}!{problem['cells']}" for problem in first["problems"]}
+    missing = {problem["place"] for problem in first["problems"]}
     assert missing - {"Arrays!B7"} <= TYPED.keys()
     arrays, objects, _ = tables(path)
     heads = [head["text"] for head in arrays["heads"]]
     assert len(heads) == len(ARRAY)
-    assert next(head["choices"] for head in arrays["heads"] if head["text"] == "Slope unit")
-    cells = TYPED | {
-        f"Arrays!{one['cell']}": v for one, v in zip(arrays["rows"][0], ARRAY, strict=True)
-    }
-    cells |= {
-        f"Objects!{one['cell']}": v for one, v in zip(objects["rows"][0], OBJECT, strict=True)
-    }
+    assert arrays["rows"][0][heads.index("Slope unit")]["choices"]
+    cells = TYPED | {one["where"]: v for one, v in zip(arrays["rows"][0], ARRAY, strict=True)}
+    cells |= {one["where"]: v for one, v in zip(objects["rows"][0], OBJECT, strict=True)}
     assert fill(path, cells) == {"answer": {"lines": []}}
     done = state(path)
     assert done["problems"] == []
