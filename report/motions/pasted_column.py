@@ -27,6 +27,7 @@ HEADING_ROWS = 10
 MAX_SAMPLES = 200_000
 
 MAX_TOLD = 5
+_FEW = 10  # samples: fewer may be a sketch of a pulse
 
 
 def heading_on(book: OpenBook, title: str, header: str) -> CellPosition:
@@ -71,10 +72,18 @@ def read_column(
     below = below[: last + 1]
     values = _numbers(below, units)
     parsed = _parsed_heading(book, heading)
-    # A magnitude has no sign: as a component it would push one way only.
-    if parsed.is_magnitude and min(values, default=-1.0) >= 0.0:
+    # What has no sign would push one way only.
+    is_positive = min(values, default=-1.0) >= 0.0
+    if parsed.is_magnitude and is_positive:
         raise InputError(
             f"{heading.address} is '{parsed.text}', the magnitude of a vector; use a component"
+        )
+    is_named = parsed.kind is Kind.ACCELERATION
+    if is_positive and any(values) and len(values) > _FEW and not is_named:
+        raise InputError(
+            f"{heading.address} is '{parsed.text}', and no value below it is less than zero: this"
+            " is a curve or a magnitude, not a record; use a component, or a heading such as"
+            " acc_g if it is one"
         )
     times = _check_times(book, heading, len(values), dt_s)
     # 1 gal = 1 cm/s2; the solver's table has one name for each unit.

@@ -305,7 +305,7 @@ def pasted(values, header="North", name="Pasted!North"):
 def timed(times, header="time_s"):
     """Return the cells of such a column with times beside it."""
     beside = {f"Pasted!A{row}": time for row, time in enumerate(times, start=4)}
-    return pasted([0.1] * len(times)) | {"Pasted!A3": header} | beside
+    return pasted([0.1] * (len(times) - 1) + [-0.1]) | {"Pasted!A3": header} | beside
 
 
 @pytest.fixture(scope="module")
@@ -386,6 +386,9 @@ def test_a_pasted_column_is_shown_in_its_units(paste, cell, code, line):
           " one"]),
         (pasted([0.1, 0.2], header="Total [g]", name="Pasted!Total [g]"),
          ["Pasted!B3 is 'Total [g]', the magnitude of a vector; use a component"]),
+        (pasted([0.1, 0.2, 0.0] * 4),
+         ["Pasted!B3 is 'North', and no value below it is less than zero: this is a curve or a"
+          " magnitude, not a record; use a component, or a heading such as acc_g if it is one"]),
         (pasted([0.1, -999, 0.2]),
          ["Pasted!North: sample 2 is -999 where no other exceeds 0.2 g; this is a code for missing"
           " data; use a record without gaps"]),
