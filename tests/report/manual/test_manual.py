@@ -332,4 +332,4 @@ def test_the_charts_are_the_same_every_time_and_the_runs_are_in_the_table(eviden
     table = pd.read_csv(io.BytesIO(verification_csv(only(models=(evidence,)))))
     assert set(table["kind"]) == {"run in two axes"}
     for column in ("residual error [%]", "parameters", "case"):
-        assert table[column].tolist() == evidence.work[column].tolist()
+        assert table[column].tolist() == spaced(evidence.work[column].tolist())
