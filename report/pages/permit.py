@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 
-from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.friction import mu_words
-from report.assessment.design.separation import importance_factor
 from report.assessment.design.verdict import Verdict
+from report.assessment.support.plan_gaps import keep_clear_m
 from report.document.columns import centered, plain, required, text, words
 from report.document.tables import Column, Table, headed, listed, stamp
 from report.pages import cover
@@ -22,7 +22,7 @@ from report.pages.marks import prescriptive_key
 from report.pages.parts import PackageData, friction_report
 from report.pages.symbols import with_symbols
 from report.text.units import number
-from solver.rules.provisions import SEPARATION_KEYS, Neighbor, required_separation
+from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 _SEPARATIONS = {
     "To a similar array": Neighbor.LIKE,
@@ -72,15 +72,8 @@ def _arrays(package: PackageData) -> Table:
 
 
 def _separation(package: PackageData, head: str, neighbor: Neighbor) -> Column:
-    rules, i_e = package.assessment.rules, package.data.site.i_e
     mark = package.marks.of(SEPARATION_KEYS[neighbor])
-
-    def separation_m(item: ArrayAssessment) -> float:
-        importance = importance_factor(rules, neighbor, i_e=i_e, i_p=item.array.i_p)
-        return required_separation(
-            rules, neighbor, design_m=item.permitted_m, importance=importance
-        )
-
+    separation_m = partial(keep_clear_m, package.assessment, neighbor=neighbor)
     return required(head, 1.2), separation_m, lambda _: mark
 
 

@@ -10,6 +10,7 @@ from report.assessment.assessment import Assessment
 from report.assessment.design.arrays import ArrayAssessment
 from report.assessment.design.clearances import ClearanceCheck
 from report.assessment.design.rule_set import mark_of
+from report.assessment.design.separation import importance_factor
 from report.assessment.design.verdict import Verdict
 from report.assessment.plan.neighbors import PlanNeighbor
 from report.project.model.choices import ObjectKind
@@ -84,15 +85,15 @@ def parapet_note(assessment: Assessment, item: RoofObject) -> str:
     return ", does not qualify" + (f" for {', '.join(arrays)}" if len(arrays) < len(gaps) else "")
 
 
-def keep_clear_m(assessment: Assessment, array: ArrayAssessment) -> float:
+def keep_clear_m(
+    assessment: Assessment, array: ArrayAssessment, neighbor: Neighbor = Neighbor.FIXED
+) -> float:
     """Return the separation from any fixed object [m]; NaN without a permitted displacement."""
-    rules = assessment.rules
+    rules, i_e = assessment.rules, assessment.project.site.i_e
+    # Any object that may come: its I_p is taken as that of the array.
+    importance = importance_factor(rules, neighbor, i_e=i_e, i_p=array.array.i_p)
     return provisions.required_separation(
-        rules,
-        Neighbor.FIXED,
-        design_m=array.permitted_m,
-        # Any object that may come: its I_p is taken as that of the array.
-        importance=array.array.i_p if rules.importance_in_separation else 1.0,
+        rules, neighbor, design_m=array.permitted_m, importance=importance
     )
 
 
