@@ -222,7 +222,7 @@ def test_a_pasted_record_on_a_hidden_sheet_is_one_warning_and_a_note_of_the_reco
     found = [f for f in findings(book.sheet.source, book.sheet.project, book.shaking) if f.id]
     ((name, text),) = [(f.id, f.text) for f in found if f.id.startswith("hidden")]
     assert name == "hidden sheet Pasted"
-    assert "and cells A1:C150 on it are used" in text
+    assert "but cells A1:C150 on it are used" in text
     page = page_of(replace(assessments.package().assessment, shaking=book.shaking), "records")
     assert "M1 horizontal: cells A1:B150 on the Pasted worksheet: hidden sheet" in page
 
