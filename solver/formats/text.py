@@ -267,7 +267,11 @@ def _check_remarks(layout: Layout, table: Floats) -> None:
     is_positive = len(numbers) > _FEW and bool((numbers >= 0.0).all())
     is_headed = any(heading.kind is Kind.ACCELERATION for heading in layout.headings)
     is_said = is_headed or any(phrases.is_of_acceleration(line) for _, line in layout.remarks)
-    for index, line in layout.remarks:
+    remarks, head = list(layout.remarks), layout.heading_index
+    if [heading.kind for heading in layout.headings[:1]] == [Kind.OTHER]:
+        # Two words above two columns may be a title, as `Displacement history` is.
+        remarks.append((head, layout.source.lines[head]))
+    for index, line in remarks:
         place = layout.source.at(index)
         if is_positive and phrases.is_of_a_spectrum(line):
             raise InputError(

@@ -305,7 +305,8 @@ _SIZES = UNITS | {
 
 _LENGTHS = "nm|µm|mm|cm|m|ft|in"
 _NOT_ACCELERATION = re.compile(
-    rf"({_LENGTHS})(/s)?|[a-z]+/s[23]|rad|(rad|deg|°)/s|dps|deg|°[cf]?|m?volts?|mv|h?k?pa|psi|%|[uµμ]t"
+    rf"({_LENGTHS})(/s)?|[a-z]+/s[23]|rad|(rad|deg|°)/s|dps|deg|°[cf]?|m?volts?|mv|%|[uµμ]t"
+    r"|[hkm]?pa|[pk]s[if]|[km]n|lbf?|kips?|kgf"  # N alone is north
 )
 _SPELLINGS = tuple(
     (re.compile(pattern), short)

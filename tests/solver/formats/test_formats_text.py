@@ -595,6 +595,14 @@ def test_a_line_above_the_numbers_tells_of_a_spectrum(file, remark):
                        units="g", dt_s=0.01)  # fmt: skip
 
 
+@pytest.mark.parametrize("heading", ["Force (kN)", "Base shear [kips]", "p (kPa)", "V (lbf)"])
+def test_a_column_of_forces_is_no_acceleration(file, heading):
+    (problem,) = problems_of(file(f"time (s),{heading}\n0,0.1\n0.01,-0.2\n0.02,0.1\n"))
+    assert problem.startswith(f"roof.csv: found no acceleration component next to '{heading}'")
+    for name in ("x (N)", "EW [north]"):
+        assert read_record(file(f"time (s),{name}\n0,1\n0.01,-2\n"), units="g").dt_s == 0.01
+
+
 @pytest.mark.parametrize(
     ("remark", "named"),
     [
@@ -603,6 +611,10 @@ def test_a_line_above_the_numbers_tells_of_a_spectrum(file, remark):
         ("Corrected ground velocity", "velocity"),
         ("# time, disp", "disp"),
         ("# UNITS: cm/s", "cm/s"),
+        ("Displacement history", "displacement"),
+        ("Velocidad (cm)", "velocidad"),
+        ("# Vitesse", "vitesse"),
+        ("Jerk", "jerk"),
     ],
 )
 def test_a_line_above_the_numbers_tells_of_another_quantity(file, remark, named):
