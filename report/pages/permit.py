@@ -28,7 +28,7 @@ _SEPARATIONS = {
     "To a similar array": Neighbor.LIKE,
     "To an object or other array": Neighbor.FIXED,
     "To an edge with parapet": Neighbor.PARAPET,
-    "To an edge without": Neighbor.EDGE,
+    "To an edge without parapet": Neighbor.EDGE,
 }
 
 
