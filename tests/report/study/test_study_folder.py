@@ -107,7 +107,7 @@ def test_a_forged_part_is_taken_over_on_the_word_of_the_option_and_every_file_sa
     assert told in pages.study(found)
     assert {"What": "Runs taken over", "Value": told} in sheet_rows(found, "Study")
     assert f"{told}." in export_files(found)["fragility.csv"].decode()
-    again = r": 1 part \([0-9,]+ runs\) without .*--trust-parts takes"
+    again = r"recomputed: [0-9,]+ runs in 1 of \d+ batches not signed .*--trust-parts also reuses"
     with pytest.warns(UserWarning, match=again):
         found = run_study(plan, out)  # taken over, it is not signed
     assert np.array_equal(found.curves.mean_m, results.curves.mean_m, equal_nan=True)
