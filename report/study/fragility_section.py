@@ -32,7 +32,6 @@ from report.text.names import joined, slug
 from report.text.units import digits_down, digits_up, number, round_up
 from solver.studies import capacity, uncertainty
 from solver.studies import fragility as fits
-from solver.studies.uncertainty import Exceedance
 
 
 def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
@@ -40,6 +39,7 @@ def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
     array, study = result.plan.array, results.plan.input.study
     name = f"{array.id}{on_building(results, result.plan.building, ', building ')}"
     fragilities, bars = [state.fragility for state in result.states], result.bars
+    exceeded = result.exceedances[0] if result.exceedances else None
     is_exceedance = study.no_value is NoValue.EXCEEDANCE
     censored = f"censored; {fragilities[0].censored} are"
     tested = [state for state in result.states if not math.isnan(state.fragility.p_value)]
@@ -64,7 +64,9 @@ def fragility(results: StudyResults, result: ArrayStudyResult) -> Section:
         mass=MASS,
         clearance=both(results, array.clearance_m),
         samples=study.samples if study.sampling is Sampling.LATIN_HYPERCUBE else 0,
-        exceedance=_exceedance(results, *result.exceedances) if result.exceedances else {},
+        at=with_symbols(level(results, study.site_intensity or 0.0) + about_intensity(study)),
+        exceedance=exceeded,
+        chance=chance(exceeded.value, exceeded.low, exceeded.high) if exceeded else "",
         has_bars=bool(bars),
         largest_effect=bars[0].name if bars and not math.isnan(result.center_m) else "",
         low=f"{100 * uncertainty.LOW:g}%",
@@ -77,16 +79,6 @@ _GOODNESS = (
     "Goodness of fit: ranked capacities, the lognormal distribution fitted to them, and the band "
     f"that contains the ranks of {100 * (1 - fits.LEVEL):g}% of lognormal samples."
 )
-
-
-def _exceedance(results: StudyResults, found: Exceedance) -> Mapping[str, Any]:
-    study = results.plan.input.study
-    return {
-        "at": with_symbols(level(results, study.site_intensity or 0.0) + about_intensity(study)),
-        "chance": chance(found.value, found.low, found.high),
-        "pairs": found.runs,
-        "lost": found.without_value,
-    }
 
 
 def _notes(result: ArrayStudyResult) -> Iterator[str]:

@@ -95,9 +95,9 @@ def design(rule: DesignRule) -> str:
 
 def spread(results: StudyResults) -> str:
     """Return by how much the spectra of the motions differ."""
-    of, motions = results.spread, results.plan.design_rule.n_motions
+    spectra, motions = results.spread, results.plan.design_rule.n_motions
     differ = f"the spectra of the {motions} motions differ by a standard deviation of ln Sa of"
-    return f"{differ} {digits_up(of.median, 2)} in the median"
+    return f"{differ} {digits_up(spectra.median, 2)} in the median"
 
 
 def _no_record_spread(results: StudyResults) -> str:
@@ -171,11 +171,11 @@ def _steepest(results: StudyResults) -> Iterator[str]:
     level = with_unit(f"{study_input.intensities[middle]:g}", study.intensity.unit)
     allowed = f"{results.leading} of at most {both(results, study.allowed_m)}"
     for building in range(len(results.plan.motions.buildings)):
-        found = (
+        by_name = (
             results.largest_slopes(building, name, study.allowed_m)[:, middle]
             for name in dict.fromkeys((results.leading, MEAN))
         )
-        for mu, *slopes in zip(study_input.mus, *found, strict=True):
+        for mu, *slopes in zip(study_input.mus, *by_name, strict=True):
             where = f"friction {mu:g}{on_building(results, building)}"
             largest = "; mean PRD: ".join(_slope(results, slope) for slope in slopes)
             at = f"{allowed} at {study.intensity.letters} {level}, {where}"
@@ -194,13 +194,13 @@ def _capacities(results: StudyResults, result: ArrayStudyResult) -> Iterator[str
     letters, unit = study.intensity.letters, study.intensity.unit
     name = f"{array.id}{on_building(results, result.plan.building)}"
     for state in result.states:
-        fitted, found = state.fragility.fitted, NOT_DETERMINED
+        fitted, lognormal = state.fragility.fitted, NOT_DETERMINED
         if fitted.is_known:
             median = with_unit(digits_down(fitted.theta, 3), unit)
-            found = f"median {letters} {median}, beta {digits_up(fitted.beta, 2)}"
-        yield f"{name}, {state.words}: {found}"
-    for one in result.exceedances:
+            lognormal = f"median {letters} {median}, beta {digits_up(fitted.beta, 2)}"
+        yield f"{name}, {state.words}: {lognormal}"
+    for exceedance in result.exceedances:
         exceeded = f"the clearance of {both(results, array.clearance_m)} is exceeded"
         level = f"{letters} {with_unit(f'{study.site_intensity:g}', unit)}{about_intensity(study)}"
-        within = chance(one.value, one.low, one.high)
+        within = chance(exceedance.value, exceedance.low, exceedance.high)
         yield f"{name}: probability that {exceeded} at {level}: {within}"

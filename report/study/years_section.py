@@ -35,14 +35,14 @@ from solver.studies.rates import LEAST_RATE, HazardCurve
 
 def years(results: StudyResults, array_years: ArrayYears) -> Section:
     """Return the section on the rates and the lives of an array."""
-    plan, study, found = array_years.plan, results.plan.input.study, array_years.predicted
+    plan, study, predicted = array_years.plan, results.plan.input.study, array_years.predicted
     name = f"{plan.array.id}{on_building(results, plan.building, ', building ')}"
     (curve,), motion = results.plan.hazard, results.plan.motions.motions[0][0]
     hazard, life = results.plan.input.hazard, f"{rates.LIFE_YEARS:g} years"
     lost, slip = array_years.statistics[NEVER][0].without_value, array_years.slip
     unit, settled_m = length_unit(results), lives.SETTLED_M
     untested = f"μ = {array_years.mus[0]:g} without scatter, as no test is given"
-    friction = f"mean μ of its tests {number(found[0].mean, 3)}" if found else untested
+    friction = f"mean μ of its tests {number(predicted[0].mean, 3)}" if predicted else untested
     return section(
         "study/years",
         f"Rates and {life} of {name}",
@@ -76,7 +76,7 @@ def years(results: StudyResults, array_years: ArrayYears) -> Section:
         statistics=_statistics(results, array_years),
         statistics_caption=f"Distance from the installed place in {life}",
         lost=f"{digits_up(100 * lost, 2)}%" if lost else "",
-        friction=_friction(results, array_years, *found) if found else {},
+        friction=_friction(results, array_years, *predicted) if predicted else {},
         charts={
             "rates": study_charts.rates(array_years, curve, unit, axis(results)),
             "lives": study_charts.lives(array_years, unit),
@@ -114,26 +114,23 @@ _RUNS = (
 
 
 def _friction(
-    results: StudyResults, array_years: ArrayYears, found: Predictive
+    results: StudyResults, array_years: ArrayYears, predicted: Predictive
 ) -> Mapping[str, Any]:
     """Return the friction of a mat as measured, and what it means for the displacement."""
     mat = array_years.plan.array.mat
     surfaces, between = results.plan.input.surfaces(mat), ""
     if len(surfaces) > 1:
-        between = f"; the means of the surfaces with one of {number(found.between, 4)}"
-        if not math.isnan(found.p_value):
-            between += f" (p of equal means {digits_up(found.p_value, 2)})"
+        between = f"; the means of the surfaces with one of {number(predicted.between, 4)}"
+        if not math.isnan(predicted.p_value):
+            between += f" (p of equal means {digits_up(predicted.p_value, 2)})"
     return {
         "runs": listed(surfaces, _RUNS, kind="compact"),
         "caption": f"Runs of mat {mat}",
-        "within": number(found.within, 4),
-        "freedom": found.freedom,
+        "predicted": predicted,
         "between": between,
-        "mean": number(found.mean, 3),
-        "scale": number(found.scale, 4),
-        "least": number(found.quantiles[0], 3),
+        "least": number(predicted.quantiles[0], 3),
         "quantile": f"{100 * predictive.QUANTILES[0]:g}%",
-        "most": number(found.quantiles[-1], 3),
+        "most": number(predicted.quantiles[-1], 3),
         "prds": _by_friction(results, array_years),
         "verdict": _verdict(array_years),
     }
