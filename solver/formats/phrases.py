@@ -70,6 +70,15 @@ _QUANTITY = re.compile(
     re.IGNORECASE,
 )
 
+# Of all values below a line.
+_OTHERWISE = re.compile(
+    r"(?:%|\bpercent\b)\s*(?:of\s+)?g\b|\bin (?:%|percent)(?!\s*damp)|\bp?s[vd]\b"
+    r"|(?<!\w)[x×*]\s*(?:10\s*\^|1e-?\d|\d*\.\d)|\b1e-\d|\b(?:ln|log(?:10)?)\s*\("
+    r"|\bnormali[sz]ed\b|\b(?:velocity|displacement) spectr|\bmultipl(?:y|ied) by\b"
+    r"|percentile|fractile|\bper (?:century|month|day|\d)|\bnon-?exceed",
+    re.IGNORECASE,
+)
+
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]{1,16})[\])]")
 _UNITS_OF = re.compile(
     r"\bunits?\b[\s:=]*+(?:(?:of|in|are|is)\b(?!/)[\s:=]*+)*+([^\s,;()\[\]]+)", re.IGNORECASE
@@ -262,7 +271,12 @@ def other_quantity(line: str) -> str:
 
 
 def is_of_another(line: str) -> bool:
-    """Whether a line of text states a quantity other than acceleration, or a unit other than g."""
+    """Whether a line of text says another quantity than acceleration, or another unit than g.
+
+    So says one of a factor, a logarithm, a percentile or a ratio of the values below it.
+    """
+    if _OTHERWISE.search(line):
+        return True
     sizes = {unit_size(unit) for unit in units_in(line)}
     return bool(sizes - {unit_size("g")} or other_quantity(line))
 
