@@ -6,8 +6,9 @@ import { isSame, typedOf } from "./changes.js";
 
 const REST_MS = 80; // without a step of a key, after which a slider rests
 const HOLD_MS = 700; // without a move of the pointer that holds it, likewise: a drag that turns back asks nothing
-const GAP_MS = 400; // at least, from one provisional answer that is asked to the next: nobody reads numbers faster
-const PER_ANSWER = 2; // likewise, of the time that the last one took: a server under load is asked half of the time
+const GAP_MS = 600; // at least, from one provisional answer that is asked to the next in a drag: nobody reads numbers faster
+const PER_ANSWER = 3; // likewise, of the time that the last one took: a server under load is not asked all the time
+const PAUSE_MS = 250; // without a move, after which the next one is answered at once
 const SLOW_MS = 400; // after which values at rest are answered provisionally, if the full answer is not there
 
 /** The whole sheet of the plan. */
@@ -151,13 +152,21 @@ export function onChange(names, draw) {
   };
 }
 
-/** Return a function that runs a task once at a time, with a gap in ms if given; calls meanwhile become one more run. */
+/**
+ * Return a function that runs a task once at a time, with a gap in ms if given, which a call after a pause ends;
+ * calls meanwhile become one more run.
+ */
 export function createLane(task, gap = 0) {
   let isOpen = false;
   let isWaiting = false;
+  let called = 0;
+  let endGap = null;
   async function run() {
+    const waited = performance.now() - called;
+    called += waited;
     if (isOpen) {
       isWaiting = true;
+      if (waited > PAUSE_MS) endGap?.();
       return;
     }
     isOpen = true;
@@ -166,6 +175,7 @@ export function createLane(task, gap = 0) {
     const took = performance.now() - begun;
     if (gap) {
       await new Promise((done) => {
+        endGap = done;
         setTimeout(done, Math.max(gap, PER_ANSWER * took) - took);
       });
     }

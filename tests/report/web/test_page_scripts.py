@@ -66,6 +66,14 @@ STEPS = {
         const two = asked.slice(0, 2).map(({ moving, values }) => [moving, values.x]);
         return [open, two, answers()];""",
         [1, [[True, 1], [True, 3]], [["moving", 1]]]),
+    "a move after a pause is asked at once, whatever the gap between two of a drag": ("""
+        session.move({ x: 1 });
+        asked[0].done(); await pause(300);
+        const start = performance.now();
+        session.move({ x: 2 });
+        while (asked.length < 2) await pause(5);
+        return [performance.now() - start < 100, asked.map(({ values }) => values.x)];""",
+        [True, [1, 2]]),
     "the full model answers at rest, and a late provisional answer is dropped": ("""
         session.move({ x: 1 });
         session.release();
