@@ -66,7 +66,7 @@ _SPECTRUM = re.compile(
 _QUANTITY = re.compile(
     r"\W*(?:(?!peak|max|wave|shear)\w+\W+){0,3}?(vel|velocit(?:y|ies|[aà])|velocidad(?:es)?"
     r"|vitesses?|geschwindigkeit(?:en)?|disp|displacements?|d[eé]placements?|desplazamientos?|jerk)"
-    r"(?:\W+(?:time|history|histories|series|record|trace|data|in)\b|\W*[\[(,;]|\W*$)",
+    r"(?:\W+(?:time|history|histories|series|record|trace|motion|data|in)\b|\W*[\[(,;]|\W*$)",
     re.IGNORECASE,
 )
 

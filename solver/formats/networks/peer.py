@@ -27,6 +27,7 @@ from solver.records.record import Record, quoted
 
 # The count is in the first lines of a file: the heading has four, or seven and more.
 _HEADING_LINES, _LONGEST_HEADING = 6, 20
+_FEW = 10  # values: fewer may be a sketch of a pulse
 _NAMED = re.compile(r"NPTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
 _BEHIND = re.compile(
     r"\s*(\d+)(?:\s*+,)?\s++(\d*(?:\.\d*)?(?:[eE][+-]?\d+)?)\s*+(?:,\s*)?NPTS\s*,\s*DT",
@@ -61,15 +62,20 @@ def read(source: Source) -> MotionFile:
         )
     units: list[tuple[str, int]] = []
     for index, line in enumerate(source.lines[: number + 1]):
-        # The name of a station may have the letters of a unit in brackets.
-        if phrases.ACCELERATION.search(line) or phrases.stated_units(line):
-            units += [(unit, index) for unit in phrases.units_in(line)]
+        # The name of a station may have the letters of a unit in brackets, but no m/s2.
+        is_said = phrases.ACCELERATION.search(line) or phrases.stated_units(line)
+        units += [(unit, index) for unit in phrases.units_in(line) if is_said or "/" in unit]
     scale = source.stated_scale(units)
     step = printed(counted[2], number) if counted.re is not _NAMED else None
     steps = [step] if step else phrases.steps_in(source, number, stated)
     dt_s = source.step(source.agreed(steps or [Stated(index=number)]))
     block = Block(first=number + 1, stop=len(source.lines), count=int(counted[1]), promised=number)
     values = free_values(source, block) * scale
+    if len(values) > _FEW and values.min() >= 0.0 and values.any():
+        raise InputError(
+            f"{source.at(number + 1)}: found no value below zero: this is a spectrum or a curve,"
+            " not a record; use accelerations by time"
+        )
     # The second line has event, date, station and component.
     _, comma, component = heading[1].rpartition(",") if len(heading) > 1 else ("", "", "")
     name = component.strip() if comma else ""

@@ -595,6 +595,22 @@ def test_a_line_above_the_numbers_tells_of_a_spectrum(file, remark):
                        units="g", dt_s=0.01)  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    ("title", "sign", "said"),
+    [
+        ("motion 3 in cm/s2", "-", "roof.csv:1: the file is in cm/s2 but units are g"),
+        ("velocity motion", "-", "roof.csv:1: found velocity; use the file of acceleration"),
+        ("motion 3", "", "roof.csv:3: found no value below zero: this is a spectrum or a curve"),
+    ],
+)
+def test_a_title_above_count_and_step_tells_of_unit_and_quantity(file, title, sign, said):
+    rows = "".join(f"{sign}0.0{k % 7 + 1}\n" for k in range(20))
+    (problem,) = problems_of(file(f"{title}\n20 0.01\n{rows}"))
+    assert problem.startswith(said)
+    station = file("motion 3 (G)\n20 0.01\n" + "-0.1\n0.1\n" * 10)
+    assert len(read_record(station, units="gal").a_mps2) == 20
+
+
 @pytest.mark.parametrize("heading", ["Force (kN)", "Base shear [kips]", "p (kPa)", "V (lbf)"])
 def test_a_column_of_forces_is_no_acceleration(file, heading):
     (problem,) = problems_of(file(f"time (s),{heading}\n0,0.1\n0.01,-0.2\n0.02,0.1\n"))
