@@ -20,7 +20,13 @@ from solver.errors import InputError, Problem
 from solver.formats.phrases import Heading, Kind, is_spectral, parse
 from solver.formats.source import Source
 from solver.formats.times import sampled
-from solver.records.record import Record, check_peak, record_from_values, unit_size
+from solver.records.record import (
+    Record,
+    check_peak,
+    has_gravity,
+    record_from_values,
+    unit_size,
+)
 
 HEADING_ROWS = 10
 
@@ -78,8 +84,8 @@ def read_column(
         raise InputError(
             f"{heading.address} is '{parsed.text}', the magnitude of a vector; use a component"
         )
-    is_named = parsed.kind is Kind.ACCELERATION
-    if is_positive and any(values) and len(values) > _FEW and not is_named:
+    is_told = parsed.kind is Kind.ACCELERATION or has_gravity(unit_size(units) * np.array(values))
+    if is_positive and any(values) and len(values) > _FEW and not is_told:
         raise InputError(
             f"{heading.address} is '{parsed.text}', and no value below it is less than zero: this"
             " is a curve or a magnitude, not a record; use a component, or a heading such as"

@@ -73,9 +73,9 @@ _QUANTITY = re.compile(
 # Of all values below a line.
 _OTHERWISE = re.compile(
     r"(?:%|\bpercent\b)\s*(?:of\s+)?g\b|\bin (?:%|percent)(?!\s*damp)|\bp?s[vd]\b"
-    r"|(?<!\w)[x×*]\s*(?:10\s*\^|1e-?\d|\d*\.\d)|\b1e-\d|\b(?:ln|log(?:10)?)\s*\("
+    r"|(?<!\w)[x×*]\s*(?:10\s*\^|1e-?\d|\d*\.\d+\s*(?:\)|$))|\b1e-\d|\b(?:ln|log(?:10)?)\s*\("
     r"|\bnormali[sz]ed\b|\b(?:velocity|displacement) spectr|\bmultipl(?:y|ied) by\b"
-    r"|percentile|fractile|\bper (?:century|month|day|\d)|\bnon-?exceed",
+    r"|percentile|fractile|\bper (?:century|month|day|1,?000)|\bnon-?exceed",
     re.IGNORECASE,
 )
 

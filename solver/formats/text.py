@@ -43,7 +43,7 @@ from solver.formats.record_file import MotionFile
 from solver.formats.source import Source
 from solver.formats.times import Even, is_even, sampled
 from solver.model import Floats
-from solver.records.record import BEYOND, HOLD, Record, quoted
+from solver.records.record import BEYOND, HOLD, Record, has_gravity, quoted
 
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
 
@@ -294,9 +294,13 @@ def _heading_of(table: Floats) -> str:
 def _check_both_ways(layout: Layout, table: Floats) -> None:
     """Refuse values without a heading that go one way only: a spectrum or a curve."""
     is_headed = any(heading.kind is Kind.ACCELERATION for heading in layout.headings)
-    values = table[:, 1:] if table.shape[1] > 1 else table
+    columns = range(int(table.shape[1] > 1), table.shape[1])
+    values = table[:, columns]
     is_curve = len(table) > _FEW and bool((values >= 0.0).all() and values.any())
-    if is_curve and not (is_headed or layout.per_line):
+    if not is_curve or is_headed or layout.per_line:
+        return
+    # Gravity is told as such, later.
+    if not any(has_gravity(table[:, i] * layout.scale(i)) for i in columns):
         raise InputError(
             f"{layout.source.at(layout.first)}: found no value below zero: this is a spectrum or a"
             f" curve, not a record; use accelerations by time, or a heading such as"

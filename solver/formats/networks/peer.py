@@ -19,7 +19,7 @@ from solver.formats.channels import motion_file
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
-from solver.records.record import Record, quoted
+from solver.records.record import Record, has_gravity, quoted
 
 # Source: the files of the Pacific Earthquake Engineering Research Center, peer.berkeley.edu (there
 # is no written definition); eqsig.loader (label, then count and step, then a value a line); the
@@ -71,7 +71,8 @@ def read(source: Source) -> MotionFile:
     dt_s = source.step(source.agreed(steps or [Stated(index=number)]))
     block = Block(first=number + 1, stop=len(source.lines), count=int(counted[1]), promised=number)
     values = free_values(source, block) * scale
-    if len(values) > _FEW and values.min() >= 0.0 and values.any():
+    is_curve = len(values) > _FEW and values.min() >= 0.0 and values.any()
+    if is_curve and not has_gravity(values):
         raise InputError(
             f"{source.at(number + 1)}: found no value below zero: this is a spectrum or a curve,"
             " not a record; use accelerations by time"

@@ -24,7 +24,7 @@ from report.project.read.read import read
 @pytest.fixture(scope="module")
 def shaken(tmp_path_factory):
     """The project, its first motion with a transverse record: with the slashes of Windows."""
-    path = recorded(make(tmp_path_factory.mktemp("shaken")), y="0.1\n" * 200)
+    path = recorded(make(tmp_path_factory.mktemp("shaken")), y="acc_g\n" + "0.1\n" * 200)
     return read_workbook(type_into(path, {"Motions/M1/Transverse record": "records\\y.csv"}))
 
 
@@ -135,7 +135,7 @@ CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
 )
 ONE_OF = "use one by name or number: 1 East; 2 North; 3 Up"
 AS_IN_FILE = row_cells("Motions/M1", {"Record units": None, "Time step": None})
-PART = "0.1\n" * 100 + "0\n" * 100
+PART = "acc_g\n" + "0.1\n" * 100 + "0\n" * 100
 STILL = {"Motions/M2/Horizontal record": "records/still.csv"}
 FIRST, SECOND, THIRD = (f"<Motions/M{k}/Horizontal record>: horizontal record" for k in (1, 2, 3))
 VERTICAL = "<Motions/M1/Vertical record>: vertical record"
