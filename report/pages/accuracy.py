@@ -124,7 +124,7 @@ def _smallest_words(margins: Sequence[Margin]) -> str:
     mu_text = f"μ of {smallest.array.id}"
     if percent_less:
         remains = (
-            f"It remains satisfied with {mu_text} reduced by {number(percent_less, 1)}%, from "
+            f"It is satisfied with {mu_text} reduced by {number(percent_less, 1)}%, from "
             f"{mu_words(law)} to {_least(smallest)}."
         )
     else:
@@ -155,16 +155,16 @@ def _margin_table(package: PackageData, margins: Sequence[Margin]) -> Table:
         return f"≤ {_least(margin)}" if margin.is_beyond else _least(margin)
 
     columns = (
-        (words("No.", 0.8), lambda margin: str(margin.number)),
-        (words("Array", 0.8), lambda margin: margin.array.id),
+        (words("No.", 2.6), lambda margin: str(margin.number)),
+        (words("Array", 2.6), lambda margin: margin.array.id),
         (text("μ", "entered", package.mu_share),
          lambda margin: mu_words(margin.array.array.friction)),
         (text("μ", "lowest", package.mu_share), lowest),
-        (text("Change", "%", 0.9), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
+        (text("Change", "%", 0.6), lambda margin: number(100.0 * (_share(margin) - 1.0), 1)),
         (required("Required at this μ", 0.9),
          lambda margin: "—" if math.isnan(margin.minimum_mu) else margin.required_m),
-        (length("Provided", 0.9), lambda margin: margin.gap.clearance.provided_m),
-        (words("Limited by", 1.6), lambda margin: lowered(margin.limited_by)),
+        (length("Provided", 0.8), lambda margin: margin.gap.clearance.provided_m),
+        (words("Limited by", 1.4), lambda margin: lowered(margin.limited_by)),
     )  # fmt: skip
     return listed(margins, columns, package.fmt, kind="compact")
 

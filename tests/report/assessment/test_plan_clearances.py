@@ -270,7 +270,7 @@ def test_motions_may_be_missing_and_nothing_else(tmp_path):
     type_into(path, dict.fromkeys(("Motions/M1/ID", "Motions/M2/Horizontal record")))
     assert problems(path)
     _, lines = missing_rows(read(path))
-    assert lines[-1].startswith("2 clearances added, 0 kept; reach 163.2 in (4144 mm)")
+    assert spaced(lines[-1]).startswith("2 clearances added, 0 kept; reach 163.2 in (4144 mm)")
     type_into(path, {"Arrays/A1/Weight": None, "Site/S_DS": None})
     output = run("plan", "clearances", tmp_path, exit_code=2)
     assert cell_address("<Arrays/A1/Weight>: weight is missing") in output

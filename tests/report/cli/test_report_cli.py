@@ -225,7 +225,7 @@ def test_a_workbook_that_is_not_to_be_written_stays_as_it_is(tmp_path, monkeypat
     before = path.read_bytes()
     output = stdout_of("report", path)
     assert path.read_bytes() == before
-    (line,) = (line for line in output.splitlines() if "on record" in line)
+    (line,) = (line for line in output.splitlines() if "not recorded" in line)
     assert line.startswith(
         f"{path}: {cell_address(PLACES)}: the confirmed inputs were not recorded: "
     )

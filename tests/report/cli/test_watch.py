@@ -189,7 +189,7 @@ def test_each_save_gives_a_round_that_says_what_changed(tmp_path):
         until("watching ")
         # A mistake is printed, and the watch goes on.
         path.write_bytes(b"")
-        until(f"{path}: 1 problem")
+        until(f"{path}: 1 error")
 
 
 def test_an_interrupt_that_python_drops_ends_the_watch(tmp_path, monkeypatch):

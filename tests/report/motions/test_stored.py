@@ -102,7 +102,7 @@ LOCKED = changed(packed([("input.xlsx", b"abc")]), (LISTED, 8, b"\1"), (HEADER, 
         [
             (sent(), "no file was uploaded"),
             (sent("a.csv"), r"no workbook \(.xlsx\) was uploaded"),
-            (sent("a.xlsx", "b.xlsx"), r"2 workbooks were sent \(a.xlsx, b.xlsx\)"),
+            (sent("a.xlsx", "b.xlsx"), r"2 workbooks were uploaded \(a.xlsx, b.xlsx\)"),
             (sent("a.zip", "b.xlsx"), "a zip was uploaded with other files"),
             (sent("input.xlsx", *(f"{k}.csv" for k in range(500))), "more than 500 files"),
             (zipped(b""), "the zip is damaged"),

@@ -69,7 +69,11 @@ def test_what_is_wrong_in_a_half_filled_one_is_named_as_it_was(tmp_path, monkeyp
     assert done.output.replace(str(tmp_path), "").splitlines() == RECORDED["undone"]["check"]
 
 
-WORDS = {"direction": Direction, "neighbor": Neighbor}
+WORDS = {
+    "direction": Direction,
+    "neighbor": Neighbor,
+    "prescriptive_governs": {"formula": "equation"}.get,
+}
 """What has another word in results than it had then."""
 
 

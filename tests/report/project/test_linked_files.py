@@ -95,7 +95,7 @@ REFUSED = [
     ("loop.csv", f"'loop.csv' cannot be found; {WITHIN}"),
     ("n" * 300, f"'{'n' * 300}' cannot be found; {WITHIN}"),
     ("pipe.csv", f"'pipe.csv' is not a file; {WITHIN}"),
-    ("big.csv", "'big.csv' has 65 MB; use at most 64 MB"),
+    ("big.csv", "'big.csv' is 65 MB; use at most 64 MB"),
     ("input.xlsx",
      "input.xlsx: not a text file; a zip or a workbook; unpack it, or save its worksheet as CSV"),
 ]  # fmt: skip
