@@ -199,7 +199,7 @@ def test_report_puts_a_confirmation_on_record_once_and_attaches_the_workbook_wit
     # What changes is named, and the record stays until there is a new date.
     type_into(path, {"Arrays/A1/Friction coefficient": 0.4})
     before = path.read_bytes()
-    (tmp_path / "records" / "z.csv").write_text("0.1\n" * 200)
+    (tmp_path / "records" / "z.csv").write_text("acc_g\n" + "0.1\n" * 200)
     output = stdout_of("report", path)
     (line,) = (line for line in output.splitlines() if "dated before" in line)
     said = "Date of the peer review: 2026-03-01, dated before these inputs changed: "

@@ -127,7 +127,7 @@ def recorded(path, **texts):
 
 
 def timed(step, count):
-    return "".join(f"{i * step:.2f},0.1\n" for i in range(count))
+    return "time_s,acc_g\n" + "".join(f"{i * step:.2f},0.1\n" for i in range(count))
 
 
 CHANNELS = "time (s),East (g),North (g),Up (g)\n" + "".join(
