@@ -79,7 +79,10 @@ def read_map(path: Path, unit_m: float) -> Any:
             text = f"line 1: the heading is '{cut(heading)}'"
             raise InputError(f"{text}; enter the number of blocks below blocks")
     if missing := [name for name in COLUMNS if heads.count(name) != 1]:
-        raise InputError(f"line 1: not one heading {', '.join(missing)}; enter x, y and blocks")
+        names = ", ".join(missing)
+        raise InputError(
+            f"line 1: found none or several of {names}; enter x, y and blocks once each"
+        )
     if len(rows) > MAX_ROWS:
         raise InputError(f"{len(rows):,} lines, more than {MAX_ROWS:,}; combine neighboring blocks")
     rows_read, wrong = [], []

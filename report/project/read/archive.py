@@ -242,7 +242,7 @@ def _scans_by_title(archive: zipfile.ZipFile, scans: Mapping[str, Scan]) -> dict
         if scans[part].twice:
             raise InputError(f"{title}!{scans[part].twice}: the file has this cell twice; {REOPEN}")
     if scans[_WORKBOOK].twice:
-        raise InputError(f"the file has the name {scans[_WORKBOOK].twice} twice; {REOPEN}")
+        raise InputError(f"the file contains the name {scans[_WORKBOOK].twice} twice; {REOPEN}")
     return by_title
 
 

@@ -21,8 +21,8 @@ pytestmark = pytest.mark.quick
 @pytest.mark.parametrize(
     ("content", "wanted"),
     [
-        ("", ["line 1: not one heading x, y, blocks; enter x, y and blocks"]),
-        ("x,x,y,blocks\n", ["line 1: not one heading x; enter x, y and blocks"]),
+        ("", ["line 1: found none or several of x, y, blocks; enter x, y and blocks once each"]),
+        ("x,x,y,blocks\n", ["line 1: found none or several of x; enter x, y and blocks once each"]),
         ("x,y,blocks\n1,2,3\n\na,,1\n", ["line 4: x is 'a'; enter a number",
                                          "line 4: y is ''; enter a number"]),
         ("x,y,blocks\n1,inf,2.5\n1,2,-1\n1,2,1e9\n", [

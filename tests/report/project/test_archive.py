@@ -272,7 +272,7 @@ def test_a_cell_or_a_name_that_the_file_has_twice_is_refused(tmp_path):
     )
     name = rb'<definedName name="site_s_ds_g"[^>]*>[^<]*</definedName>'
     path = rewritten(make(tmp_path), BOOK, partial(re.sub, name, rb"\g<0>\g<0>"))
-    assert problems(path) == (f"the file has the name site_s_ds_g twice; {REOPEN}",)
+    assert problems(path) == (f"the file contains the name site_s_ds_g twice; {REOPEN}",)
 
 
 def far_away(book):
