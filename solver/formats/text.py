@@ -29,6 +29,7 @@ from solver.formats.columns import (
 )
 from solver.formats.headings import Layout, laid_out
 from solver.formats.likely_kinds import likely_text
+from solver.formats.not_accelerations import FEW, check_both_ways, check_remarks
 from solver.formats.numbers import (
     COMPARED,
     DECIMAL_COMMA,
@@ -43,12 +44,12 @@ from solver.formats.record_file import MotionFile
 from solver.formats.source import Source
 from solver.formats.times import Even, is_even, sampled
 from solver.model import Floats
-from solver.records.record import BEYOND, HOLD, Record, has_gravity, quoted
+from solver.records.record import BEYOND, HOLD, Record, quoted
 
 _HOLD = re.compile(rf"\b{re.escape(HOLD)} (\d+(?:\.\d+)?) s\b", re.ASCII)
 
 # Of times without a unit: more are milliseconds or numbers of samples, but in a sketch of a pulse.
-_LONGEST_STEP, _FEW = 1.0, 10
+_LONGEST_STEP = 1.0
 _LOOKED_AT = 200
 
 
@@ -73,7 +74,7 @@ def read(source: Source) -> MotionFile:
             f"{source.at(layout.heading_index)}: found {', '.join(map(quoted, named))}: this is a"
             " spectrum, not a record; use accelerations by time"
         )
-    _check_remarks(layout, table)
+    check_remarks(layout, table)
     timed = _has_times(layout, table)
     ignored = _left_out(layout, table, range(int(timed), table.shape[1]))
     taken = [i for i in range(int(timed), table.shape[1]) if i not in ignored]
@@ -88,7 +89,7 @@ def read(source: Source) -> MotionFile:
         dt_s, columns, time_notes = _timed(layout, table, columns)
     else:
         dt_s, time_notes = _untimed_step(layout, table.shape[1]), ()
-        _check_both_ways(layout, table)
+        check_both_ways(layout, table)
     several = len(taken) > 1
     channels = [
         Record(
@@ -260,54 +261,6 @@ def _check_last(layout: Layout) -> None:
         )
 
 
-def _check_remarks(layout: Layout, table: Floats) -> None:
-    """Raise if the text above the numbers states that they are not accelerations."""
-    numbers = table[:, 1:] if table.shape[1] > 1 else table
-    # A record may be matched to a spectrum: only a spectrum is nowhere below zero.
-    is_positive = len(numbers) > _FEW and bool((numbers >= 0.0).all())
-    is_headed = any(heading.kind is Kind.ACCELERATION for heading in layout.headings)
-    is_said = is_headed or any(phrases.is_of_acceleration(line) for _, line in layout.remarks)
-    remarks, head = list(layout.remarks), layout.heading_index
-    if [heading.kind for heading in layout.headings[:1]] == [Kind.OTHER]:
-        # Two words above two columns may be a title, as `Displacement history` is.
-        remarks.append((head, layout.source.lines[head]))
-    for index, line in remarks:
-        place = layout.source.at(index)
-        if is_positive and phrases.is_of_a_spectrum(line):
-            raise InputError(
-                f"{place}: found {quoted(line)} above values of which none is negative: this is a"
-                " spectrum, not a record; use accelerations by time"
-            )
-        if not is_said and (quantity := phrases.other_quantity(line)):
-            heading = _heading_of(table)
-            raise InputError(
-                f"{place}: found {quantity!r} but no acceleration; use the acceleration file,"
-                f" or a heading such as {heading} if the values are accelerations"
-            )
-
-
-def _heading_of(table: Floats) -> str:
-    """Return a heading that would say that a table is accelerations."""
-    return "acc_g" if table.shape[1] == 1 else "time_s,acc_g"
-
-
-def _check_both_ways(layout: Layout, table: Floats) -> None:
-    """Refuse values without a heading that go one way only: a spectrum or a curve."""
-    is_headed = any(heading.kind is Kind.ACCELERATION for heading in layout.headings)
-    columns = range(int(table.shape[1] > 1), table.shape[1])
-    values = table[:, columns]
-    is_curve = len(table) > _FEW and bool((values >= 0.0).all() and values.any())
-    if not is_curve or is_headed or layout.per_line:
-        return
-    # Gravity is told as such, later.
-    if not any(has_gravity(table[:, i] * layout.scale(i)) for i in columns):
-        raise InputError(
-            f"{layout.source.at(layout.first)}: found no value below zero: this is a spectrum or a"
-            f" curve, not a record; use accelerations by time, or a heading such as"
-            f" {_heading_of(table)} if they are"
-        )
-
-
 def _left_out(layout: Layout, table: Floats, columns: Sequence[int]) -> dict[int, str]:
     """Return the columns that are not a component of acceleration, and why."""
     headings = layout.headings
@@ -359,7 +312,7 @@ def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
     in_line = _pairs_in_line(layout, table) or 1
     _check_decimal_comma(layout, table[:, 0])
     unit_s = _unit_of_times(layout, table)
-    _check_both_ways(layout, table)
+    check_both_ways(layout, table)
     t_s = unit_s * table[:, 0]
 
     def line_of(row: int) -> int:
@@ -383,7 +336,7 @@ def _unit_of_times(layout: Layout, table: Floats) -> float:
     unit_s = layout.seconds()
     heading = layout.headings[0] if layout.headings else None
     step = float(np.median(np.diff(table[:, 0])))
-    if not (heading and heading.unit) and step >= _LONGEST_STEP and len(table) > _FEW:
+    if not (heading and heading.unit) and step >= _LONGEST_STEP and len(table) > FEW:
         noun = quoted(heading.text) if heading else "a first column"
         or_none = "" if heading else ", or delete the column if it contains sample numbers"
         raise InputError(
@@ -396,7 +349,7 @@ def _unit_of_times(layout: Layout, table: Floats) -> float:
 def _check_is_time(layout: Layout, table: Floats) -> None:
     """Raise if the first of several columns without headings cannot be times."""
     source, times = layout.source, table[:, 0]
-    if layout.headings or len(times) <= _FEW:
+    if layout.headings or len(times) <= FEW:
         return
     # Not the first fall: times that stand twice or out of order are told as times.
     falling = int((np.diff(times) <= 0.0).sum())
