@@ -108,7 +108,8 @@ def test_what_was_typed_stays_when_it_is_checked_again_before_the_filled_workboo
     page.route("**/api/plan", lambda route: held.append(route))
     for label, text in (("project name is missing", "Shed"), ("project number is missing", "S-1")):
         page.get_by_label(label).fill(text)
-        with page.expect_response("**/api/cells"):
+        # The workbook is sent once its cells are filled in: the route is held by then.
+        with page.expect_request("**/api/plan"):
             page.get_by_role("button", name="Fill in and check").click()
     for route in held:
         route.continue_()
