@@ -31,7 +31,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     columns = (
         (words("Provision", 6.0), lambda row: row[0]),
         (text("Value", share=0.75), lambda row: f"{row[1].value:.4g}" + dagger(row[1])),
-        (words("Code section", 1.6), lambda row: row[1].clause.removeprefix(before_clauses)),
+        (words("Section", 1.9), lambda row: row[1].clause.removeprefix(before_clauses)),
     )
     # Two columns of the page; the left one has the odd row.
     middle = (len(named) + 1) // 2

@@ -283,5 +283,5 @@ def test_a_kind_and_a_height_that_the_drawing_changes_are_named(tmp_path):
     path = first_day(tmp_path)
     edge = ("ROOF-EDGE", "EDGE-2, HT 30 in", box(240, 0, 1, 160))
     output = second_day(tmp_path, path, [*FEET, edge], SHIFT)
-    assert "EDGE-2: kind edge with parapet is edge without parapet now, as drawn" in output
+    assert "EDGE-2: type edge with parapet is edge without parapet now, as drawn" in output
     assert "EDGE-2: height 36 in is 30.0 now, as drawn" in output

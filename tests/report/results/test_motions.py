@@ -67,7 +67,9 @@ def test_sets_become_rows_and_their_files_are_copied(library, tmp_path):
 @pytest.mark.nightly
 def test_records_keep_their_units_and_the_level_goes_into_the_rows(library, tmp_path):
     for axis in "xyz":
-        (library / f"raw-{axis}.txt").write_text("".join(f"0.{k:03d}\n" for k in range(200)))
+        (library / f"raw-{axis}.txt").write_text(
+            "".join(f"{'-' * (k % 2)}0.{k:03d}\n" for k in range(200))
+        )
     path = make(tmp_path / "p")
     words = ("--at", "roof", "--only", "raw", "--units", "m/s2", "--dt", 0.02)
     commands.stdout_of(*rows(library, path, *words))
