@@ -134,7 +134,7 @@ def test_the_slope_limit_of_the_code_is_cited_by_the_code_that_is_named(code, cl
     assert f"{clause}: {name}" in page_of(made, "records")
     assert f"; {clause}; AC156" in page_of(made, "cover").facts["Codes"]
     rows = page_of(made, "limits").table("All checks").rows
-    assert f"{clause}†" in [row["Section"] for row in rows]
+    assert f"{clause}†" in [row["Code section"] for row in rows]
     assert "due to Seismic Motion, manuscript that names no authors" in page_of(made, "records")
 
 
