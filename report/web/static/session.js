@@ -6,7 +6,7 @@ import { isSame, typedOf } from "./changes.js";
 
 const REST_MS = 80; // without a step of a key, after which a slider rests
 const HOLD_MS = 700; // without a move of the pointer that holds it, likewise: a drag that turns back asks nothing
-const GAP_MS = 600; // at least, from one provisional answer that is asked to the next in a drag: nobody reads numbers faster
+const GAP_MS = 300; // at least, from one provisional answer that is asked to the next in a drag: at 600, a drag takes 1.0 s of processor time instead of 1.4
 const PER_ANSWER = 3; // likewise, of the time that the last one took: a server under load is not asked all the time
 const PAUSE_MS = 250; // without a move, after which the next one is answered at once
 const SLOW_MS = 400; // after which values at rest are answered provisionally, if the full answer is not there
