@@ -28,13 +28,13 @@ def provision(rules: RuleSet, key: str, unit: str = "") -> str:
 
 
 def steepest_permitted(rules: RuleSet) -> str:
-    """Return the largest slope that the rule set permits, which the displacement does not know."""
+    """Return the largest slope permitted by the rule set; no displacement depends on it."""
     key = min("ibc_max_slope_deg", "analysis_max_slope_deg", key=rules.__getitem__)
     return f"{rules.values[key].clause} permits at most {provision(rules, key, '°')}"
 
 
 def about_intensity(study: Study) -> str:
-    """Return how the intensity of a probability is distributed."""
+    """Return the distribution of the intensity that a probability is for."""
     beta = study.intensity_beta
     return f" (median), with a dispersion of {beta:g}" if beta else ""
 
@@ -48,18 +48,18 @@ def about_array(results: StudyResults, array: StudyArray, friction: str) -> str:
 
 
 def analysis(rule: DesignRule) -> str:
-    """Return what the value from analysis is."""
+    """Return the definition of the analysis displacement."""
     statistic = "largest" if rule.basis.takes_largest else "mean"
     return f"{provision(rule.rules, 'analysis_factor')} times the {statistic} PRD"
 
 
 def prescriptive(rules: RuleSet) -> str:
-    """Return for what the prescriptive displacement is taken."""
+    """Return the parameters assumed for the prescriptive displacement."""
     return f"for SDC {SDC}" + ("" if rules.importance_in_separation else f" and I_e = {I_E:g}")
 
 
 def design_basis(rule: DesignRule) -> str:
-    """Return by what the design displacement is found."""
+    """Return the basis of the design displacement."""
     share = f"{provision(rule.rules, 'analysis_floor')} times the prescriptive displacement"
     later = "which follows from the S_DS of each site and must be compared with it there"
     floor = (
@@ -72,13 +72,11 @@ def design_basis(rule: DesignRule) -> str:
 
 
 def design(rule: DesignRule) -> str:
-    """Return what the design displacement is, or that there is none."""
+    """Return the definition of the design displacement, or the reason for having none."""
     rules = rule.rules
     if not rule.has_value:
-        needed, are = (
-            provision(rules, "analysis_min_motions"),
-            "is" if rule.n_motions == 1 else "are",
-        )
+        needed = provision(rules, "analysis_min_motions")
+        are = "is" if rule.n_motions == 1 else "are"
         few = f"{rules.name} needs {needed} motions or more, and there {are} {rule.n_motions}"
         alone = "The statistics of the PRD are shown alone and are not for design."
         return f"There is no design displacement: {few}. {alone}"
@@ -94,14 +92,14 @@ def design(rule: DesignRule) -> str:
 
 
 def spread(results: StudyResults) -> str:
-    """Return by how much the spectra of the motions differ."""
+    """Return the scatter of the response spectra of the motions."""
     spectra, motions = results.spread, results.plan.design_rule.n_motions
     differ = f"the spectra of the {motions} motions differ by a standard deviation of ln Sa of"
     return f"{differ} {digits_up(spectra.median, 2)} in the median"
 
 
 def _no_record_spread(results: StudyResults) -> str:
-    """Return that the dispersion has no record-to-record part, with what was measured."""
+    """Return the sentence on a missing record-to-record dispersion, with the measured scatter."""
     if results.spread.is_known:
         lacking = "β does not contain the record-to-record dispersion of earthquakes"
         return f"{spread(results)}, as motions matched to one spectrum do, and {lacking}."
@@ -112,7 +110,7 @@ def _no_record_spread(results: StudyResults) -> str:
 
 
 def warnings(results: StudyResults) -> list[str]:
-    """Return what the library says of its dispersion, and of runs taken over on trust."""
+    """Return the warnings on the dispersion and on runs reused without a valid signature."""
     trusted = [
         f"{_taken(results, parts)}."
         for parts in results.manifest["taken_over"]
@@ -128,7 +126,7 @@ def _in_spite(results: StudyResults) -> list[str]:
 
 
 def _taken(results: StudyResults, parts: Mapping[str, Any]) -> str:
-    """Return what was not computed by this command, from when it is and on whose word."""
+    """Return the number of reused runs, their dates, and who vouches for them."""
     first, last = parts["from"], parts["to"]
     dates = f"{f'on {first}' if first == last else f'from {first} to {last}'} (UTC)"
     whose = (
@@ -142,7 +140,7 @@ def _taken(results: StudyResults, parts: Mapping[str, Any]) -> str:
 
 
 def taken_over(results: StudyResults) -> list[str]:
-    """Return how many runs are from parts that were there, from when and on whose word."""
+    """Return one sentence for each group of reused runs."""
     return [_taken(results, parts) for parts in results.manifest["taken_over"]]
 
 
