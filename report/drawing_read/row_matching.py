@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 
@@ -58,34 +58,19 @@ def matched(plan: RoofPlan, inputs: Inputs) -> RoofPlan:
     move = _move_of_plan(plan, roof, was, groups, by_row)
     moved = move or Move()
     before = {name: moved.of(shape) for name, shape in was.items()}
-    # An edge stays on its side of the roof, or of all that is in plan where no roof is.
-    ways_before = {
-        name: _outward(shape, moved.of(roof) if roof else around(before.values()))
-        for name, shape in before.items()
-        if groups.get(name) == _EDGE
-    }
-    ways = {
-        k: _outward(place.shape, plan.roof_shape or around(plan.shapes.values()))
-        for k, place in enumerate(drawn)
-        if _group(place.kind) == _EDGE
-    }
+    same_side = _same_side(plan, moved.of(roof) if roof else None, before, groups)
     unclear: list[str] = []
     for group in (_ARRAY, _OBJECT, _EDGE):
         numbers = [k for k, place in enumerate(drawn) if _group(place.kind) == group]
         names = [name for name in before if groups.get(name, _ARRAY) == group]
         # By what they cover together first: a center alone may be nearer to a neighbor.
         for score in (_common, _near if group == _EDGE else _same_sized) if move else ():
-            pairs: dict[tuple[int, str], float] = {}
-            for k, name in product(numbers, names):
-                if k in by_row or name in by_row.values():
-                    continue
-                # The product of one direction and the conjugate of the other has the cosine
-                # between them as its real part.
-                if k in ways and (ways_before[name] * ways[k].conjugate()).real <= _SAME_WAY:
-                    continue
-                value = score(drawn[k], before[name])
-                if value > 0.0:
-                    pairs[k, name] = value
+            pairs = {
+                (k, name): value
+                for k, name in product(numbers, names)
+                if k not in by_row and name not in by_row.values() and same_side(k, name)
+                if (value := score(drawn[k], before[name])) > 0.0
+            }
             unclear += _tell(pairs, drawn, by_row, unit)
         unmatched_rows = [n for n in names if n not in by_row.values() and _is_drawn(rows[n])]
         unmatched = [k for k in numbers if k not in by_row and drawn[k].unnamed and drawn[k].handle]
@@ -135,6 +120,33 @@ def _move_of_plan(
     drawn_keyed = [(by_row.get(k, _group(line.kind)), line.shape) for k, line in enumerate(drawn)]
     named = [(was[name], drawn[number].shape) for number, name in by_row.items()]
     return whole_move((roof, plan.roof_shape), keyed, drawn_keyed, named)
+
+
+def _same_side(
+    plan: RoofPlan,
+    roof_before: Shape | None,
+    before: Mapping[str, Shape],
+    groups: Mapping[str, str],
+) -> Callable[[int, str], bool]:
+    """Return what tells whether an outline, by its number, may be a row: an edge keeps its side."""
+    # The side of the roof, or of all that is in plan where no roof is.
+    rows = {
+        name: _outward(shape, roof_before or around(before.values()))
+        for name, shape in before.items()
+        if groups.get(name) == _EDGE
+    }
+    drawn = {
+        number: _outward(place.shape, plan.roof_shape or around(plan.shapes.values()))
+        for number, place in enumerate((*plan.arrays, *plan.objects))
+        if _group(place.kind) == _EDGE
+    }
+
+    def may_be(number: int, name: str) -> bool:
+        # The product of one direction and the conjugate of the other has the cosine between them
+        # as its real part.
+        return number not in drawn or (rows[name] * drawn[number].conjugate()).real > _SAME_WAY
+
+    return may_be
 
 
 def _outward(edge: Shape, roof: Shape) -> complex:
