@@ -21,11 +21,11 @@ from typing import IO, Any
 from xml.etree.ElementTree import ParseError
 
 import defusedxml.ElementTree
-from openpyxl import LXML, Workbook, load_workbook
+from openpyxl import Workbook, load_workbook
 from openpyxl.worksheet.worksheet import Worksheet
 
 from report.project.read.scan import REOPEN, Scan, UsedRange, scan_parts
-from solver.errors import DefectError, InputError
+from solver.errors import InputError
 from solver.file_checks import check_length, read_file
 from solver.suggestions import meant
 
@@ -275,10 +275,6 @@ def _tree(archive: zipfile.ZipFile, name: str) -> Any:
 
 
 def _load(data: bytes) -> Workbook:
-    # openpyxl asks for lxml once, as it is loaded, and would write other workbooks with it
-    # (`report/__init__.py`).
-    if LXML:
-        raise DefectError("openpyxl reads through lxml; import report before it")
     try:
         with warnings.catch_warnings():
             # It warns about features that it drops, none of which is an input.

@@ -4,6 +4,8 @@ import contextlib
 import io
 import os
 import re
+import subprocess
+import sys
 import zipfile
 from functools import partial
 
@@ -12,6 +14,7 @@ from openpyxl import DEFUSEDXML, LXML, load_workbook
 
 from fixtures.cells import cell
 from fixtures.marks import by_day
+from fixtures.paths import ROOT
 from fixtures.workbooks import (
     cell_address,
     edit,
@@ -23,6 +26,7 @@ from fixtures.workbooks import (
     same,
 )
 from report.project.read.archive import open_book, sheet_parts
+from report.project.read.read import read
 from report.project.read.scan import MAX_CELLS, MAX_OTHERS, MAX_TAGS
 from solver.errors import InputError
 
@@ -55,6 +59,21 @@ def sheet_part(path, title):
 def test_openpyxl_reads_with_the_parser_of_python():
     assert not LXML  # also where it is installed
     assert not DEFUSEDXML  # in Python itself: the scan has refused entities by then
+
+
+def test_a_notebook_that_loaded_openpyxl_first_reads_the_same_project():
+    # As pandas does when it reads a workbook; openpyxl then parses with lxml.
+    lines = (
+        "import openpyxl, roofslip",
+        "assert openpyxl.LXML",
+        "print(repr(roofslip.read_project('projects/conditions').project))",
+    )
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("OPENPYXL")}
+    done = subprocess.run(
+        [sys.executable, "-c", "; ".join(lines)],
+        cwd=ROOT, env=environment, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert done.stdout.strip() == repr(read(ROOT / "projects/conditions").project)
 
 
 TRUNCATED = f"not a workbook, or truncated; {REOPEN}"
