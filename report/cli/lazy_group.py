@@ -39,6 +39,14 @@ class LazyGroup(click.Group):
             self.add_command(getattr(module, cmd_name.replace("-", "_")))
         return super().get_command(ctx, cmd_name)
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command; click suggests one of those loaded for a name that does not exist."""
+        if args[0] not in self._modules:
+            self.every()
+        return super().resolve_command(ctx, args)
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names in the order of their sections."""
         return list(self._modules)

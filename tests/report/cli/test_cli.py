@@ -229,6 +229,7 @@ def test_completion_prints_the_script_of_a_shell(shell):
     ("words", "told"),
     [
         (("rreport",), "No such command 'rreport'. Did you mean 'report'?"),
+        (("plan", "raed"), "No such command 'raed'. Did you mean 'read'?"),
         (("report", "x", "--fail-on"), "Did you mean"),
         (("sign", "README.md", "--p12", "READNE.md"),
          "'READNE.md' does not exist; did you mean 'README.md'?"),
@@ -237,6 +238,8 @@ def test_completion_prints_the_script_of_a_shell(shell):
 )  # fmt: skip
 def test_a_word_that_is_not_known_is_answered_with_the_nearest(monkeypatch, words, told):
     monkeypatch.chdir(ROOT)
+    for group in (main, main.every()["plan"]):
+        monkeypatch.setattr(group, "commands", {})  # none is loaded yet, as in a terminal
     assert told in errors_of(*words)
 
 
