@@ -6,7 +6,7 @@ Computes nothing and contains no text: `parts.html` has a macro for each element
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -31,46 +31,28 @@ _SENT = ("verdict", "line", "verdict_text", "model_text", "next", "pending", "ti
 
 def drawn(answer: Mapping[str, Any]) -> dict[str, Any]:
     """Return an answer with its elements as HTML, by their ids; bars by array."""
-    make = parts()
-    bars, plan = answer["bars"], answer["plan"]
-    lengths = [line["length_m"] for chart in bars.values() for line in chart["lines"]]
-    lengths += [row["prd_m"] for chart in bars.values() for row in chart["rows"]]
+    make, plan, bars = parts(), answer["plan"], answer["bars"].values()
+    lengths = (each["length_m"] for chart in bars for each in (*chart["lines"], *chart["rows"]))
     scale_m = max(filter(None, lengths), default=1.0)
-    verdict, worst, reasons = answer["verdict"], answer["worst"], answer["reasons"]
-    line = worst["text"] if worst else ""
-    if verdict and verdict["look"] == "provisional":
-        line = answer["line"]
-    # Of no capacity the bar of the D/C is full.
-    ratio = worst["ratio"] if worst else None
-    share = 1.5 if ratio is None else min(ratio, 1.5)
+    reasons = answer["reasons"]
     return {name: answer[name] for name in _SENT} | {
         "count": sum(reason["level"] != "remedy" for reason in reasons),
         "plan": {name: plan[name] for name in ("size_px", "rooms_px")},
         "html": {
-            "headline": make.headline(verdict, line) if verdict else "",
-            "worst": make.worst(worst, share, round(100.0 * share, 1)),
+            "headline": make.headline(answer),
+            "worst": make.worst(answer["worst"]),
             "reasons": make.reasons(answer),
             "warnings": make.warnings([row for row in reasons if row["level"] == "warning"]),
             "arrays": make.arrays(answer["arrays"]),
             "clearances": make.clearances(answer["clearances"]),
             "bars": {
-                id: make.bars(
-                    chart["caption"],
-                    _placed(chart["rows"], "prd_m", scale_m),
-                    _placed(chart["lines"], "length_m", scale_m),
-                )
-                for id, chart in bars.items()
+                id: make.bars(chart, scale_m)
+                for id, chart in answer["bars"].items()
                 if chart["rows"]
             },
             "plan": make.plan(plan),
         },
     }
-
-
-def _placed(items: Sequence[Mapping[str, Any]], key: str, scale_m: float) -> list[dict[str, Any]]:
-    """Return bars or lines, each with its end on a scale of 100 if it has one."""
-    ends = [None if item[key] is None else round(100.0 * item[key] / scale_m, 2) for item in items]
-    return [{**item, "x": end} for item, end in zip(items, ends, strict=True)]
 
 
 @cache

@@ -8,24 +8,20 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from markupsafe import Markup, escape
 
+from report.assessment.assessment import Assessment
 from report.assessment.design.verdict import Verdict
-from report.assessment.plan.neighbors import PlanNeighbor
 from report.drawing.layers import Layer
 from report.drawing.on_paper import plan_on_paper
 from report.drawing.paper_items import TYPE_PT, Arrow, Circle, Look, Mark, Outline, Text
-from report.drawing.sheet import Paper, PlanSize, unit_format
-from report.pages.clearance_tables import NumberedGap
-from report.pages.marks import Marks
+from report.drawing.sheet import Paper, PlanSize
 from report.project.model.shapes import Point
-from report.text.unit_format import UnitFormat
 
 Cell = Mapping[str, str]
-ShowVerdict = Callable[[Verdict], Cell | None]
 
 
 def stamp(verdict: Verdict, text: str = "") -> Cell:
@@ -64,22 +60,18 @@ _CLASSES: Mapping[Look, str] = {
 
 
 def plan(
-    marks: Marks,
+    assessment: Assessment,
     designs: Mapping[str, Cell],
-    gaps: tuple[Sequence[NumberedGap], Sequence[PlanNeighbor]],
-    verdict: ShowVerdict,
     ratios: Mapping[str, float],
     room_px: int = USUAL_PX,
+    *,
+    has_verdicts: bool = True,
 ) -> Mapping[str, Any]:
     """Return the plan with its design displacements, its clearances and what is without one.
 
-    `ratios` are the largest D/C of arrays, which shade them.
+    `ratios` are the largest D/C of arrays, which shade them. Provisional values have no verdicts.
     """
     words = {name: str(cell["text"]) for name, cell in designs.items()}
-    assessment, (shown, missing) = marks.assessment, gaps
-    fmt = unit_format(assessment)
-    # Provisional values have none.
-    has_verdicts = verdict(Verdict.OK) is not None
     # The widest sheet that there is room for; in steps, so that it stays while a window is resized.
     steps = max(room_px - _LEAST_PX, 0) // _STEP_PX
     wide_px = _LEAST_PX + steps * _STEP_PX
@@ -88,17 +80,6 @@ def plan(
     size = PlanSize(wide=wide, tall=tall, key_wide=wide, key_tall=key, is_screen=True)
     paper = plan_on_paper(assessment, size, words, has_verdicts=has_verdicts).paper
     return {
-        "title": "Roof plan to scale",
-        "described": [
-            *(
-                {"text": described(gap, marks), "verdict": verdict(gap.check.verdict)}
-                for gap in shown
-            ),
-            *(
-                {"text": _without_clearance(near, fmt), "verdict": verdict(near.verdict)}
-                for near in missing
-            ),
-        ],
         "size_px": [round(paper.wide * _PX), round(paper.tall * _PX)],
         "rooms_px": [wide_px if steps else 0, wide_px + _STEP_PX],
         "drawn": Markup("".join(_elements(paper, ratios))),
@@ -107,23 +88,6 @@ def plan(
 
 SHADES = (0.5, 0.75, 0.9, 1.0)
 """D/C up to which each shade goes; one more is above the last."""
-
-
-def _without_clearance(near: PlanNeighbor, fmt: UnitFormat) -> str:
-    """Return a pair of the plan in words that has no clearance."""
-    had, needed = near.shows
-    gap, required = fmt.both(near.gap_m, show=had), fmt.both(near.required_m, show=needed)
-    return f"{near.array} to {near.other}: no clearance given, {gap} in plan, required {required}"
-
-
-def described(gap: NumberedGap, marks: Marks) -> str:
-    """Return a clearance in words."""
-    check, (had, needed) = gap.check, gap.check.shows
-    fmt, row = unit_format(marks.assessment), gap.check.clearance
-    provided = fmt.both(check.provided_m, show=had)
-    required = fmt.both(check.required_m, show=needed, mark=marks.required(check))
-    name = f"Clearance {gap.number}, {row.array} to {row.object}, {row.direction}"
-    return f"{name}: provided {provided}, required {required}"
 
 
 def _elements(paper: Paper, ratios: Mapping[str, float]) -> Iterator[str]:

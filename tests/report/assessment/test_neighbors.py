@@ -23,11 +23,10 @@ from report.drawing.layers import Layer
 from report.drawing.plan_layers import plan_drawing
 from report.drawing.sheet import LETTER
 from report.motions.prepare import prepare
-from report.pages.marks import Marks
 from report.project.model import ProjectInput
 from report.project.model.shapes import Rectangle, gap_m
 from report.project.read.read import read
-from report.web.plan import plan, stamp
+from report.web.plan import plan
 
 OUTLINE = sides(0, 220, 0, 170)
 
@@ -288,7 +287,7 @@ def test_a_short_gap_without_a_row_is_ng_in_the_drawing_the_picture_and_on_the_p
     label = {"NG", "not entered; in plan 12.0 in", "required 40.8 in"}
     assert label <= spaced({*shown})
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
-    drawn = plan(Marks(unlisted), designs, ((), ()), stamp, {})["drawn"]
+    drawn = plan(unlisted, designs, {})["drawn"]
     assert label <= spaced({*re.findall(r"<text[^>]*>([^<]*)</text>", drawn)})
 
 
@@ -315,7 +314,7 @@ def test_a_required_separation_that_an_override_lowers_is_marked_without_a_row_t
     assert re.search(r"^≥ [\d.]+\sin \([\d.]+\smm\)‡", texts(row, us_first=True)[1])
     assert unlisted.is_overridden
     designs = {item.id: {"text": ""} for item in unlisted.arrays}
-    drawn = plan(Marks(unlisted), designs, ((), ()), stamp, {})["drawn"]
+    drawn = plan(unlisted, designs, {})["drawn"]
     assert re.search(r"required [\d.]+\sin‡", drawn)
     assert re.search(r"required [\d.]+\sin‡", roof_plan(unlisted, LETTER))
     words = [t.words for t in plan_drawing(unlisted).texts if t.layer is Layer.CLEARANCE_NG]

@@ -102,6 +102,14 @@ def test_the_plan_tells_of_arrays_objects_and_clearances(assessed):
     assert {"A1", "#1"} <= keys <= found["tips"].keys()
 
 
+def test_a_tip_names_the_gap_that_governs_also_one_that_is_not_entered(assessed):
+    tips, gaps = answer(assessed, is_provisional=False)["tips"], assessed.missing_gaps
+    governing = {item.id: assessed.governing_gap(item.id) for item in assessed.arrays}
+    assert any(gap in gaps for gap in governing.values())
+    for name, gap in governing.items():
+        assert tips[name].endswith(f", D/C {gap.ratio_words} to {gap.across_from(name)}")
+
+
 def test_alike_arrays_are_one_row_and_what_is_joined_in_a_cause_is_listed():
     """The campus with short clearances: 30 arrays of six kinds, and 61 clearances."""
     given = open_project(ROOT / "projects" / "campus" / "input.xlsx")
