@@ -361,8 +361,10 @@ class _Reader:
         """Add a text that says something at a place; none is missed that does not."""
         self.letters += len(entity.text if kind == "MTEXT" else entity.dxf.text)
         limit(self.letters, MAX_LETTERS, "characters of text")
-        placed = None if kind == "MTEXT" else entity.get_placement()[1]
-        x, y, _ = placed or entity.dxf.insert
+        if kind == "MTEXT":
+            x, y, _ = entity.dxf.insert
+        else:  # in coordinates of its own, which are mirrored in a mirrored block
+            x, y, _ = entity.ocs().to_wcs(entity.get_placement()[1] or entity.dxf.insert)
         lines = lines_of_text(entity)
         if lines and math.isfinite(x) and math.isfinite(y):
             self.drawing.texts.append(

@@ -26,9 +26,14 @@ _RISE = re.compile(
     r"\s*(?:(?:/|per)\s*(?:ft\.?|foot)|:\s*12\"?|(?<=in)\s*12)"
 )
 _ONE_IN = re.compile(rf"1\s*:\s*({_DIGITS})")
-_MARKS = {"\u2018": "'", "\u2019": "'", "\u2032": "'", "\u201d": '"', "\u2033": '"', "''": '"'}
+_MARKS = {
+    **dict.fromkeys("\u2018\u2019\u2032", "'"), **dict.fromkeys("\u201c\u201d\u2033", '"'),
+    "''": '"',
+}  # fmt: skip
 _SHARES = {"\u00bc": "1/4", "\u00bd": "1/2", "\u00be": "3/4"}
 _INCHES_PER_FOOT = 12.0
+# Hyphens and dashes of typography, one letter each: between feet and inches they are a hyphen.
+DASHES = str.maketrans(dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2212", "-"))
 
 _DATES = ("%b %d %Y", "%B %d %Y", "%d %b %Y", "%d %B %Y", "%Y %m %d")
 _BESIDE_DATE = re.compile(
@@ -68,12 +73,15 @@ def plain_marks(text: str) -> str:
 
 def inches_in(text: str) -> float:
     """Return a length with marks [in]: `28'-6"`, `4'`, `3 1/2"`; NaN for another text."""
-    text = plain_marks(text)
+    text = plain_marks(text).translate(DASHES)
     match = _FEET.fullmatch(text)
     # A bare 4 fits the pattern, too: without a mark the unit is that of the column.
     if not match or not text.endswith(("'", '"')):
         return math.nan
     share = Fraction(match["share"] or match["only"] or 0)
+    # 5'-11/2" is 5'-1 1/2" without its blank.
+    if share >= 1:
+        return math.nan
     inches = float(match["inches"] or 0.0) + float(share)
     # Of inches beside feet, 12 and more are a slip of the finger.
     if match["feet"] and inches >= _INCHES_PER_FOOT:
@@ -89,7 +97,7 @@ def rise_in(text: str) -> float:
     if (one_in := _ONE_IN.fullmatch(text)) and float(one_in[1]) >= 1.0:
         return 12.0 / float(one_in[1])
     match = _RISE.fullmatch(plain_marks(text))
-    if not match:
+    if not match or Fraction(match[3] or 0) >= 1:
         return math.nan
     return float(match[1] or 0.0) + float(match[2] or 0.0) + float(Fraction(match[3] or 0))
 

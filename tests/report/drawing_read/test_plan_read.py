@@ -296,6 +296,13 @@ UNIT_M = 1.0
         ("HT 4', 6\"", "", 4.5 * FT, True),
         ("HT 48 (IN.)", "", 48 * INCH, True),
         ('HT 48"±', "", 48 * INCH, True),
+        ("RTU–1 HT 3’–6”", "RTU–1", 3.5 * FT, True),
+        ("RTU-1 3'−6\" HIGH", "RTU-1", 3.5 * FT, True),
+        ("HT 3.5 (FT)", "", 3.5 * FT, True),
+        ("HT 48“", "", 48 * INCH, True),
+        ("HT 0'-42\"", "", 42 * INCH, True),
+        ('HT 48", 60" W', "", 48 * INCH, True),
+        ("HT 1200 mm (3'-11\")", "", 1.2, True),
     ],
 )
 def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value_m, has_unit):
@@ -312,7 +319,9 @@ def test_a_height_is_read_with_its_unit_or_that_of_the_drawing(text, name, value
              "HT 42a", r'HT 48{\S1#2;}"', 'HT 48" 1/2', '60x48"H', 'H 48"', 'TOP/CURB 18"',
              '48" A.F.F.', "RTU-1 +48", "EF-1 + 2", 'HT 48" A.F.F.', 'HT 48" ABOVE GRADE',
              'HT 48±"', "HT 48´´", "HT 48%%34", 'HT 42" TO 48"', 'HT 42" OR 48"',
-             'RTU 42" TO 48" HIGH', "HT 42 to 48"]
+             'RTU 42" TO 48" HIGH', "HT 42 to 48", 'HT 42"–48"', "HT 4'-11/2\"", "HT 4' 61/2\"",
+             "HT 4'-42\"", "HT 1'200 mm", "HT 1’200 mm", 'HT 24"+24"', 'HT 24" + 14" CURB',
+             "HT 3'-6\" & 4'-0\"", "HT 3'-6\", 4'-0\"", "HT 1 m 20 cm", 'RTU 42" HIGH A.F.F.']
 )  # fmt: skip
 def test_a_number_that_is_not_read_whole_is_no_height(text):
     assert math.isnan(read_line(text, UNIT_M)[1].value_m)
@@ -340,7 +349,7 @@ def test_codes_of_letters_in_a_text_or_an_attribute_are_letters(tmp_path, text):
 
 
 def test_the_first_line_is_the_name_and_the_first_height_counts(tmp_path):
-    lines = ["RTU-1", "HT 42 1/0 in", "HT 2 m", "HT 3 m"]
+    lines = ["RTU-1", "HT 42 1/0 in", "EL 9 m", "HT 2 m", "HEIGHT 2.00 m"]
     height, unclear = first_height(lines, UNIT_M)
     assert height is not None
     assert (height.value_m, unclear) == (2.0, "")
@@ -352,6 +361,37 @@ def test_the_first_line_is_the_name_and_the_first_height_counts(tmp_path):
     (item,) = plan(sketch.saved(tmp_path)).objects
     assert spaced((item.name, item.note)) == ("RTU-7", "HT 48.0 in (1219 mm)")
     assert item.height_m == pytest.approx(48 * INCH)
+
+
+def test_two_heights_of_one_outline_are_listed_and_none_is_read(tmp_path):
+    sketch = Sketch()
+    ring = sketch.ring("OBJECT", ((0, 158), (240, 158), (240, 160), (0, 160)))
+    for x, height in ((20, 60), (120, 30)):
+        sketch.space.add_text(f'HT {height}"', dxfattribs={"layer": "OBJECT", "insert": (x, 159)})
+    found = plan(sketch.saved(tmp_path))
+    assert math.isnan(found.objects[0].height_m)
+    (item,) = found.unread
+    reason = "a height that could not be interpreted"
+    assert (item.handle, item.reason, item.detail) == (
+        ring.dxf.handle, reason, "'HT 60\"; HT 30\"'"
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("look", [{"xscale": -1.0}, {"extrusion": (0, 0, -1)}])
+def test_a_text_of_a_mirrored_block_is_in_its_outline(tmp_path, look):
+    sketch = Sketch()
+    block = sketch.document.blocks.new("UNIT")
+    block.add_lwpolyline([(0, 0), (8, 0), (8, 10), (0, 10)], close=True)
+    block.add_text('RTU-1 HT 42"').set_placement((2, 3))
+    at = (-120, 80) if "extrusion" in look else (120, 80)
+    sketch.space.add_blockref("UNIT", at, dxfattribs={"layer": "OBJECT", **look})
+    # Where the text would be without its mirror.
+    sketch.ring("OBJECT", ((-122, 80), (-114, 80), (-114, 90), (-122, 90)))
+    unit, other = plan(sketch.saved(tmp_path)).objects
+    assert (unit.name, other.name) == ("RTU-1", "OBJ-1")
+    assert unit.shape.bounds.x_to_m == pytest.approx(120 * FT)
+    assert unit.height_m == pytest.approx(42 * INCH)
+    assert math.isnan(other.height_m)
 
 
 def test_a_height_that_may_be_above_a_datum_is_said_as_above_the_roof(tmp_path):

@@ -52,6 +52,7 @@ INCHES = {
     "28'-6\"": 342.0, "4'-0\"": 48.0, "4'": 48.0, '48"': 48.0, "28' 6 1/2\"": 342.5,
     "3 1/2''": 3.5, '1/2"': 0.5, "28\u2019-6\u201d": 342.0, "-28'-6\"": -342.0, "2.5'": 30.0,
     "0'-6\"": 6.0, "28'6\"": 342.0, '6\u00bd"': 6.5, "28'-6 \u00bd\"": 342.5,
+    "28\u2019\u20136\u201d": 342.0, "48\u201c": 48.0,
 }  # fmt: skip
 
 
@@ -61,8 +62,9 @@ def test_a_length_with_marks_is_read(text, inches):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "'", '"', "28", "28'-6", "6\"-28'", "4'x2'", '1/0"', "9 in", "28'-13\""]
-)
+    "text", ["", "'", '"', "28", "28'-6", "6\"-28'", "4'x2'", '1/0"', "9 in", "28'-13\"",
+             "28'-11/2\"", '11/2"', '3 13/8"']
+)  # fmt: skip
 def test_what_is_no_length_with_marks_is_not(text):
     assert math.isnan(inches_in(text))
 
@@ -80,7 +82,8 @@ def test_a_rise_in_12_is_read(text, rise):
 
 
 @pytest.mark.parametrize("text", ["1/2", "2:24", "1/2:1", "2/12", ":12", "-1/2:12", "1/0:12",
-                                  "1:0", "1/2 12", "1/2 in"])  # fmt: skip
+                                  "1:0", "1/2 12", "1/2 in", "11/2:12",
+                                  "13/8 in per ft"])  # fmt: skip
 def test_another_ratio_is_no_rise_in_12(text):
     assert math.isnan(rise_in(text))
 
