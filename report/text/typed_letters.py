@@ -18,9 +18,9 @@ UNPRINTABLE = re.compile(
 SHOWN = 60
 
 # U+3000, the wide space of East Asian text, is the last that `str.isspace` knows.
-_UNSEEN = "".join(filter(str.isspace, map(chr, range(0x3001)))) + (
-    "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
-)
+_NO_WIDTH = "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
+_UNSEEN = "".join(filter(str.isspace, map(chr, range(0x3001)))) + _NO_WIDTH
+_SHOW_NO_WIDTH = str.maketrans(dict.fromkeys(_NO_WIDTH, "?"))
 
 # Cyrillic and Greek letters that look like Latin ones.
 _ALIKE = str.maketrans(
@@ -31,7 +31,7 @@ _ALIKE = str.maketrans(
 def cut(text: str, maximum: int = SHOWN) -> str:
     """Return a text on one line, shortened."""
     # A cell may hold what would move the cursor or turn the direction of the line.
-    text = UNPRINTABLE.sub("?", text).replace("\n", " ")
+    text = UNPRINTABLE.sub("?", text).replace("\n", " ").translate(_SHOW_NO_WIDTH)
     return text if len(text) <= maximum else f"{text[: maximum - 1]}…"
 
 

@@ -73,8 +73,14 @@ class Found:
     @property
     def is_blank(self) -> bool:
         """Whether nothing visible was typed."""
-        blank = self.value is None or (isinstance(self.value, str) and not trimmed(self.value))
-        return blank and not self.formula
+        return self.is_empty and not self.formula
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it shows nothing: blank, or a formula whose value is an empty text."""
+        if self.value is None:
+            return not self.formula
+        return isinstance(self.value, str) and not trimmed(self.value)
 
     @property
     def shown(self) -> str:
@@ -227,7 +233,7 @@ def number(cell: Found, remedy: str = "enter a number", unit: str = "") -> float
     """Return the number in a cell or its text, in its unit; raise CellError for a false format."""
     value = cell.value
     if isinstance(value, str):
-        return _number_in_text(value.strip(), remedy, unit)
+        return _number_in_text(trimmed(value), remedy, unit)
     if isinstance(value, bool):
         raise CellError(f"is {plain(value)}, a logical value", remedy)
     # A number that Excel took for a date, as 3-5 typed for a range is March 5.
@@ -279,7 +285,7 @@ def _date(cell: Found, remedy: str) -> date:
         # SheetJS writes dates without their format.
         day = (cell.day_zero + timedelta(days=int(value))).date()
     else:
-        days = dates_in(value.strip()) if isinstance(value, str) else []
+        days = dates_in(trimmed(value)) if isinstance(value, str) else []
         if len(days) != 1:
             either = f"write {' or '.join(map(str, days))}" if days else remedy
             raise CellError(f"is {_quoted(value)}", either)
@@ -291,15 +297,15 @@ def _date(cell: Found, remedy: str) -> date:
 
 
 def _choice(cell: Found, entry: Entry, remedy: str) -> StrEnum | bool:
-    text = plain(cell.value)
+    text = trimmed(plain(cell.value))
     if entry.kind is bool:
-        text = {"true": "yes", "false": "no"}.get(text.strip().casefold(), text)
+        text = {"true": "yes", "false": "no"}.get(text.casefold(), text)
     if choice := choice_in(text, entry.choices):
         return choice == YesNo.YES if entry.kind is bool else entry.kind(choice)
     try:
         # What a choice is called otherwise, its own class knows; bool takes anything.
         if entry.kind is not bool:
-            return entry.kind(text.strip().casefold())  # type: ignore[no-any-return]
+            return entry.kind(text.casefold())  # type: ignore[no-any-return]
     except ValueError:
         pass
     raise CellError(f"is {_quoted(cell.value)}", remedy)

@@ -52,10 +52,13 @@ class CellPosition:
 def found_at(book: OpenBook, position: CellPosition) -> Found:
     """Return the content of a cell, as typed and as computed."""
     cell = book.sheets[position.sheet].cell(position.row, position.column)
+    # openpyxl reads the empty text of =IF(B1="","",B1) as no value, like a formula never computed.
+    computed = book.scans[position.sheet].computed
+    is_empty = cell.value is None and (position.row, position.column) in computed
     return Found(
         sheet=position.sheet,
         cell=position.cell,
-        value=cell.value,
+        value="" if is_empty else cell.value,
         formula=book.formula(position.sheet, position.cell),
         is_error=cell.data_type == "e",
         number_format=str(cell.number_format),

@@ -240,7 +240,7 @@ def _read_table(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
             for name, column in table.columns.items()
         }
         # Blank rows are passed over, within a table as well: people leave them between groups.
-        if not all(cell.is_blank for cell in cells.values()):
+        if not all(cell.is_empty for cell in cells.values()):
             rows = gathered.inputs[section.key]
             row = {name: section.entry(name).default for name in table.absent}
             # Before its cells are read: a row with an unreadable cell has its place, and the
@@ -275,7 +275,7 @@ class _Typed:
     @property
     def is_computed(self) -> bool:
         """Whether a blank cell is computed from other inputs."""
-        return self.cell.is_blank and self.entry.computed is not None
+        return self.cell.is_empty and self.entry.computed is not None
 
 
 def _read_field(
@@ -285,7 +285,7 @@ def _read_field(
     entry, place, cell, column = typed.entry, typed.place, typed.cell, typed.column
     gathered.use(place, cell)
     try:
-        if not cell.is_blank:
+        if not cell.is_empty:
             stated = stated_unit(entry, row, cells)
             value = read_cell(cell, entry, column.unit, column.si, stated)
         elif entry.is_required:
@@ -297,7 +297,7 @@ def _read_field(
         return
     row[entry.name] = value
     value_text = as_used(value, entry, column.unit)
-    if cell.is_blank and value_text:
+    if cell.is_empty and value_text:
         computed = f"computed, {entry.rule}" if entry.rule else "computed"
         value_text += f" ({'default' if value == entry.default else computed})"
     echoed = EchoRow(

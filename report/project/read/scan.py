@@ -91,6 +91,7 @@ class Scan(ContentHandler):
     extent: UsedRange = field(default_factory=UsedRange)
     formulas: dict[str, tuple[str, str]] = field(default_factory=dict)
     cells: set[tuple[int, int]] = field(default_factory=set)  # that are there: row and column
+    computed: set[tuple[int, int]] = field(default_factory=set)  # formulas with a saved value
     # Of the part of the workbook, how it was calculated (ECMA-376-1, 18.2.2).
     calculation: dict[str, str] = field(default_factory=dict)
     outside: list[str] = field(default_factory=list)  # what it takes values or pictures from
@@ -99,6 +100,7 @@ class Scan(ContentHandler):
     _once: set[tuple[str, str | None]] = field(default_factory=set)
     _shared: dict[str, tuple[str, str]] = field(default_factory=dict)
     _formula: Mapping[str, str] | None = None
+    _last_formula: tuple[int, int] = (0, 0)
     _text: list[str] = field(default_factory=list)
     _spread_cells: int = 0
     _row: int = 0
@@ -124,6 +126,8 @@ class Scan(ContentHandler):
                 self.cells.add(position)
             case "v" | "is":
                 self.extent.grow(self._row, self._column)
+                if self._last_formula == (self._row, self._column):
+                    self.computed.add(self._last_formula)
             case _ if element in _FORMULAS:
                 self._formula, self._text = dict(attrs), []
                 if element == "f":
@@ -163,6 +167,7 @@ class Scan(ContentHandler):
             self.outside.append(f"={text}")
         if element != "f":
             return
+        self._last_formula = self._row, self._column
         cell = f"{get_column_letter(self._column)}{self._row}"
         if len(text) > MAX_FORMULA:
             raise InputError(

@@ -12,7 +12,7 @@ from functools import partial
 import pytest
 from openpyxl import DEFUSEDXML, LXML, load_workbook
 
-from fixtures.cells import cell
+from fixtures.cells import address, cell
 from fixtures.marks import by_day
 from fixtures.paths import ROOT
 from fixtures.workbooks import (
@@ -339,6 +339,24 @@ def test_a_range_over_a_whole_sheet_is_rejected_before_it_is_made(tmp_path, xml)
     wide = replaced(b"<dataValidations", xml + b"<dataValidations")
     (line,) = problems(rewritten(path, part, wide))
     assert line.startswith(f"{part}: merged cells or links over A")
+
+
+@pytest.mark.parametrize("saved", ["<v></v>", "<v/>"])
+def test_a_formula_whose_value_is_an_empty_text_is_a_blank_cell(tmp_path, saved):
+    path = make(tmp_path)
+    blank, needed = (address(path, f"Arrays/A1/{name}") for name in ("Electrical slack", "Slope"))
+    part, formula = sheet_part(path, "Arrays"), '<f>IF(1=1,"",5)</f>'
+
+    def with_formula(place):
+        cell = place.partition("!")[2]
+        found = rf'<c r="{cell}"[^>]*?(?:/>|>.*?</c>)'
+        made = f'<c r="{cell}" t="str">{formula}{saved}</c>'
+        return lambda data: re.subn(found, made, data.decode(), count=1)[0].encode()
+
+    book = read_workbook(rewritten(path, part, with_formula(blank)))
+    assert book.input.arrays[0].slack_m is None
+    path = rewritten(path, part, with_formula(needed))
+    assert problems(path) == (f"{needed}: slope is missing; enter a number of 0 or more",)
 
 
 SHEET = b"""<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>

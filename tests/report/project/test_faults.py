@@ -68,6 +68,7 @@ SINGLE_CELLS = {
     "Arrays/A1/Slope": {
         dt.datetime(2024, 5, 3): f"a date or time (2024-05-03); {FORMATTED}",
         dt.time(2, 30): f"a date or time (02:30:00); {FORMATTED}",
+        "0.\u200b5": "'0.?5'; enter a number of 0 or more",
     },
     "Arrays/A2/Slope": {
         "1/2:12": "'1/2:12'; enter a number of 0 or more, or choose the slope unit in/12",

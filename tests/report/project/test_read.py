@@ -314,6 +314,15 @@ def test_a_workbook_saved_by_libreoffice_reads_the_same_and_shows_its_formulas(t
     assert echo(book)[second].typed == f"={first.partition('!')[2]} → 0.45"
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [("Slope", "\u200b0.5"), ("Slope", "0.5\u200b"), ("Slope unit", "degrees\ufeff")],
+)
+def test_characters_of_no_width_around_a_number_or_a_choice_do_not_count(tmp_path, name, text):
+    path = type_into(make(tmp_path), {f"Arrays/A1/{name}": text})
+    assert same(read_workbook(path).input, project())
+
+
 def copied(book, title):
     """Copy a sheet as Excel does: with a table of another name."""
     sheet = book.copy_worksheet(book[title])
