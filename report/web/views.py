@@ -21,6 +21,7 @@ from report.drawing.sheet import unit_format
 from report.runs import MotionRun, OrientedRun
 from report.text.grouping import ids_by
 from report.text.json_numbers import finite
+from report.text.letter_case import capitalized
 from report.text.names import ranged
 from report.text.typed_letters import cut
 from report.text.unit_format import UnitFormat
@@ -42,11 +43,6 @@ MOST_LEVELS = 9
 
 _FINE = 6  # parts of a cell of the grid, in each direction, between which contours are straight
 
-_TITLES = {
-    "relative": "Displacement",
-    "normal": "Normal force",
-    "friction": "Friction F / N",
-}
 _NORMAL = (Unit("W", 1.0, 2),)
 _RATIO = (Unit("", 1.0, 2),)
 
@@ -60,7 +56,7 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
         chosen = _named("run", motion.runs, run, lambda one: one.orientation.name)
     history = model_selection.history(chosen.scene, chosen.solution)
     slips = slips_of(history)
-    roof = _roof(chosen.scene)
+    roof_m = _roof_m(chosen.scene)
     return {
         "run": chosen.orientation.name,
         "runs": [_run_choice(motion, one, fmt) for one in motion.runs],
@@ -70,19 +66,14 @@ def slide(assessment: Assessment, array_id: str, motion_id: str, run: str | None
             "outline": item.array.shape.points,
             "downslope_deg": item.array.downslope_deg,
         },
-        "roof_m": [
-            _numbers(velocity_displacement(component)[1])
-            for component in roof
-            if component.name != "vertical"
-        ],
+        "roof_m": [_numbers(along) for axis, along in roof_m.items() if axis != "z"],
         "slips": [_slip(k, slips, fmt) for k in range(len(slips))],
-        "peak": _peak(history),
         **_panels(chosen, history, slips, fmt),
         "prd_m": finite(history.result.prd_m),
         "t_prd_s": finite(history.result.t_prd_s),
         "texts": {
             "title": f"Array {array_id}, motion {motion_id}, run {chosen.orientation.name}",
-            **_slide_texts(chosen, history, roof, fmt),
+            **_slide_texts(chosen, history, roof_m, fmt),
         },
     }
 
@@ -98,14 +89,14 @@ def contour(assessment: Assessment, array_id: str) -> Json:
     return {
         "mus": contours.mus.tolist(),
         "slopes_deg": np.degrees(contours.slopes_rad).tolist(),
-        "prd_m": [_numbers(means) for means in contours.mean_m],
+        "prd_m": list(map(_numbers, contours.mean_m)),
         "levels": [
             {
                 "text": f"{level:g} {unit.symbol}",
-                "is_major": is_decade(level),
+                "is_major": math.isclose(math.log10(level), round(math.log10(level)), abs_tol=1e-9),
                 "lines": lines_at(level * unit.si),
             }
-            for level in drawn_levels(contours, unit.si)
+            for level in _drawn_levels(contours, unit.si)
         ],
         "here": {
             "mu": item.array.mu,
@@ -119,7 +110,7 @@ def contour(assessment: Assessment, array_id: str) -> Json:
                 "name": cut(ranged(ids), 24),
                 "is_shown": array_id in ids,
             }
-            for (mu, slope), ids in dots(contours, assessment.arrays).items()
+            for (mu, slope), ids in _dots(contours, assessment.arrays).items()
         ],
         "least_m": LEAST_M,
         "units": _units(fmt.units()),
@@ -176,13 +167,13 @@ def _prd(prd_m: float, said: Callable[..., str]) -> str:
     return "no PRD" if math.isnan(prd_m) else f"PRD {said(prd_m, show=no_less)}"
 
 
-def _roof(scene: Scene) -> tuple[Record, ...]:
-    """Return the roof motion as run: downslope, cross-slope and vertical, as far as it has them."""
-    names = {"x": "down", "y": "cross", "z": "vertical"}
-    return tuple(
-        Record(name=names[axis], dt_s=scene.dt_s, a_mps2=scene.scaled(a))
+def _roof_m(scene: Scene) -> Mapping[str, Floats]:
+    """Return the displacement of the roof as run [m], along each axis that it moves in."""
+    records = {
+        axis: Record(name=axis, dt_s=scene.dt_s, a_mps2=scene.scaled(a))
         for axis, a in scene.components.items()
-    )
+    }
+    return {axis: velocity_displacement(record)[1] for axis, record in records.items()}
 
 
 def _panels(
@@ -195,18 +186,13 @@ def _panels(
     normal, demand, used = run_forces(run, history, slips)
     i, with_used = with_jumps(run, used, history.events)
     friction = [_history("used", with_used) | {"i": i.tolist()}, _history("demand", demand)]
-    panels = {
-        "relative": (fmt.units(), relative),
-        "normal": (_NORMAL, [_history("N / W", normal)]),
-        "friction": (_RATIO, friction),
-    }
     return {
-        kind: {
-            "title": _TITLES[kind],
-            "units": _units(units),
-            "series": series,
-        }
-        for kind, (units, series) in panels.items()
+        kind: {"title": title, "units": _units(units), "series": series}
+        for kind, title, units, series in (
+            ("relative", "Displacement", fmt.units(), relative),
+            ("normal", "Normal force", _NORMAL, [_history("N / W", normal)]),
+            ("friction", "Friction F / N", _RATIO, friction),
+        )
     }
 
 
@@ -218,29 +204,16 @@ def _slip(k: int, slips: Sequence[Slip], fmt: UnitFormat) -> Json:
     return {"from_s": begin.t_s, "to_s": end.t_s, "text": text}
 
 
-def _peak(history: SlideHistory) -> Json | None:
-    """Return where the displacement is largest, between the samples beside it."""
-    result = history.result
-    if math.isnan(result.prd_m):
-        return None
-    down, across = (
-        float(np.interp(result.t_prd_s, history.t_s, values)) if values.size else 0.0
-        for values in (history.u_m, history.across_m)
-    )
-    return {"down_m": down, "across_m": across}
-
-
 def _slide_texts(
-    run: OrientedRun, history: SlideHistory, roof: Sequence[Record], fmt: UnitFormat
+    run: OrientedRun, history: SlideHistory, roof_m: Mapping[str, Floats], fmt: UnitFormat
 ) -> Json:
     result = history.result
-    travel = max(float(np.abs(velocity_displacement(record)[1]).max()) for record in roof)
+    travel = max(float(np.abs(along).max()) for along in roof_m.values())
     when = "" if math.isnan(result.prd_m) else f" at {number(result.t_prd_s, 2)} s"
-    sentence = result.status.sentence
-    status = [] if result.status is Status.OK else [f"{sentence[0].upper()}{sentence[1:]}."]
+    status = [f"{capitalized(result.status.sentence)}."] * (result.status is not Status.OK)
     return {
         "prd": f"{_prd(result.prd_m, fmt.both)}{when}",
-        "no_slip": (status or ["The array does not slip in this run."])[0],
+        "no_slip": "".join(status) or "The array does not slip in this run.",
         "notes": [
             *status,
             "Down is downslope; cross is cross-slope, positive to the left when facing downslope.",
@@ -310,7 +283,7 @@ def levels(mean: Sequence[float]) -> list[float]:
     return inside
 
 
-def drawn_levels(surface: ResponseSurface, unit_m: float) -> list[float]:
+def _drawn_levels(surface: ResponseSurface, unit_m: float) -> list[float]:
     """Return the levels that are drawn of a grid, in a unit; none where nothing slides."""
     if not (surface.mean_m > 0.0).any():
         return []
@@ -318,7 +291,7 @@ def drawn_levels(surface: ResponseSurface, unit_m: float) -> list[float]:
     return levels(mean[~np.isnan(mean)].tolist())
 
 
-def dots(
+def _dots(
     surface: ResponseSurface, arrays: Sequence[ArrayAssessment]
 ) -> Mapping[tuple[float, float], Sequence[str]]:
     """Return the arrays at each friction and slope [deg] of a grid: equal ones share a dot."""
@@ -327,8 +300,3 @@ def dots(
     return ids_by(
         drawn, lambda item: (round(item.array.mu, 3), round(math.degrees(item.array.slope_rad), 2))
     )
-
-
-def is_decade(level: float) -> bool:
-    """Whether a level is a power of ten."""
-    return math.isclose(math.log10(level), round(math.log10(level)), abs_tol=1e-9)

@@ -161,7 +161,6 @@ function slide({ results, array, of, chosen, governing, history, outline }) {
   const sliding = (speed) => fast - (fast - slow) * Math.exp(-rate * speed);
   const isDuring = during(slips);
   const used = demand.map((resting, k) => (Number.isNaN(down[k]) ? Number.NaN : isDuring(k * dt) ? sliding(Math.hypot(vDown[k] / cs, vAcross[k])) : resting));
-  const at = Math.round(history.t_prd_s / dt);
   const label = ({ run, done }) => `${nameOf(run)}, ${Number.isNaN(done.prd_m) ? "no PRD" : `PRD ${first(done.prd_m)}`}${run === governing.run ? ", governing" : ""}`;
   return {
     run: nameOf(chosen.run),
@@ -171,7 +170,6 @@ function slide({ results, array, of, chosen, governing, history, outline }) {
     plan: outline,
     roof_m: [travel(ax, dt), travel(ay, dt)],
     slips: slips.map((slip, k) => ({ ...slip, text: `Slip ${k + 1} of ${slips.length}: ${slip.from_s.toFixed(3)} s to ${slip.to_s.toFixed(3)} s` })),
-    peak: isLost ? null : { down_m: down[at], across_m: across[at] },
     relative: panel("relative", lengths, [{ name: "down", v: finite(down) }, { name: "cross", v: finite(across) }]),
     normal: panel("normal", plain("W"), [{ name: "N / W", v: finite(normal.map((n) => n / G)) }]),
     friction: panel("friction", plain(""), [{ name: "used", v: finite(used) }, { name: "demand", v: finite(demand) }]),

@@ -158,12 +158,13 @@ function piece({ t, relative }, { pixel, path }, { from_s: from, to_s: to }) {
 // Times, and in the axes of the plan the places of the drawing's base, of the array relative to the
 // roof, and of the PRD; `reach` is how far the motion goes [m]. The array stays where it has no
 // displacement.
-function motion({ relative: { series }, roof_m: roof, dt_s: dt, plan, peak }, isFromRoof) {
+function motion({ relative: { series }, roof_m: roof, dt_s: dt, t_prd_s: tPrd, plan }, isFromRoof) {
   const turned = (down, across) => inPlan(down ?? 0, across ?? 0, plan.downslope_deg);
   const relative = series[0].v.map((down, k) => turned(down, series[1]?.v[k]));
   const base = roof[0].map((down, k) => (isFromRoof ? [0, 0] : turned(down, roof[1]?.[k])));
   const reach = base.reduce((most, [x, y], k) => Math.max(most, Math.hypot(x, y), Math.hypot(x + relative[k][0], y + relative[k][1])), 0);
-  return { t: base.map((_, k) => k * dt), base, relative, reach, peak: peak && turned(peak.down_m, peak.across_m) };
+  const t = base.map((_, k) => k * dt);
+  return { t, base, relative, reach, peak: tPrd === null ? null : between(t, relative, tPrd) };
 }
 
 // Cross-slope is to the left of one who faces downslope.

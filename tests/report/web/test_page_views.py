@@ -165,7 +165,9 @@ def test_the_run_opens_at_its_peak_with_the_values_of_the_package_and_the_array_
     peak = on_roof.locator(".peak")
     assert x == pytest.approx(float(peak.get_attribute("cx")), abs=0.15)
     assert y == pytest.approx(float(peak.get_attribute("cy")), abs=0.15)
-    down, across = run["peak"]["down_m"], run["peak"]["across_m"]
+    down, across = (
+        value_at(series, run["dt_s"], run["t_prd_s"]) for series in run["relative"]["series"]
+    )
     turn = math.radians(run["plan"]["downslope_deg"])
     assert math.atan2(-y, x) == pytest.approx(turn + math.atan2(across, down), abs=0.01)
     bar = on_roof.locator(".track-foot .bar-line").evaluate("(one) => one.getBBox().width")
