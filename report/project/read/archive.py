@@ -127,13 +127,16 @@ def book_of(path: Path, data: bytes) -> OpenBook:
 
 def located(path: Path) -> Path:
     """Return the path of a workbook, or of `input.xlsx` in a folder; raises as `open_book`."""
-    asked = _workbook_in(path, path.parent) if path.is_dir() else meant(path)
+    lacks = "no such file"
     if path.is_dir():
-        path = path / "input.xlsx"
+        asked, path = _workbook_in(path, path.parent), path / "input.xlsx"
+        lacks = "a folder without input.xlsx"
+    else:
+        asked = meant(path) or _workbook_in(path.parent)
     if not path.exists():
         check_length(path)
         remedy = "use a workbook, or a folder that contains input.xlsx"
-        raise InputError(f"no such file; {asked or _workbook_in(path.parent) or remedy}")
+        raise InputError(f"{lacks}; {asked or remedy}")
     if not path.is_file():
         raise InputError("not a file; use a workbook, or a folder that contains input.xlsx")
     if path.suffix.lower() != ".xlsx":
@@ -145,8 +148,12 @@ def located(path: Path) -> Path:
 def _workbook_in(*folders: Path) -> str:
     """Suggest the workbooks of the first folder that has any, or name one of another type."""
     for folder in filter(Path.is_dir, folders):
-        # Excel puts ~$NAME beside a workbook that is open.
-        files = sorted(file for file in folder.iterdir() if not file.name.startswith("~$"))
+        # Excel puts ~$NAME beside a workbook that is open; the others are results.
+        files = sorted(
+            file
+            for file in folder.iterdir()
+            if not file.name.startswith("~$") and file.name not in ("results.xlsx", "study.xlsx")
+        )
         if books := [file for file in files if file.suffix.lower() == ".xlsx"]:
             names = " or ".join(f"'{file}'" for file in books)
             return f"did you mean {names}?" if len(books) <= MOST_ASKED else ""

@@ -76,6 +76,11 @@ def read_book(book: OpenBook) -> Sheet:
         run = f"roofslip study {quoted(book.path)}"
         raise InputError(f"{_STUDY}: this is the workbook of a study; run {run}")
     sheet = read_as(ProjectInput, SECTIONS, book, faults)
+    if sheet.unfound >= {"project", "site"}:
+        raise InputError(
+            "not an input workbook: the worksheets Project and Site are missing; use input.xlsx,"
+            " or a new workbook (roofslip new FOLDER)"
+        )
     documents, wrong = read_documents(book, sheet.inputs)
     problems = (*sheet.problems, *located_problems(wrong, sheet.addresses, sheet.unfound))
     return replace(sheet, documents=documents, problems=problems)

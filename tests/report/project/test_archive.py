@@ -196,6 +196,7 @@ def test_tags_are_counted_before_anything_is_parsed(tmp_path):
         ("job/input.xls", "job", "'{}/job/input.xls' is an old Excel workbook; " + SAVE_AS),
         ("job/My Project.xlsx", "job", "did you mean '{}/job/My Project.xlsx'?"),
         ("job/input.xlsx", "job/records", "did you mean '{}/job/input.xlsx'?"),
+        ("job/input.xlsx", "job/out", "did you mean '{}/job/input.xlsx'?"),
         ("job/A 101.xlsx", "job/roof.xlsx", "did you mean '{}/job/A 101.xlsx'?"),
         ("job.xlsx", "job", "did you mean '{}/job.xlsx'?"),
         ("job/~$input.xlsx", "job",
@@ -204,14 +205,17 @@ def test_tags_are_counted_before_anything_is_parsed(tmp_path):
 )  # fmt: skip
 def test_a_workbook_that_is_there_is_suggested(tmp_path, there, asked, told):
     (tmp_path / "job" / "records").mkdir(parents=True)
+    (tmp_path / "job" / "out").mkdir()
+    (tmp_path / "job" / "out" / "results.xlsx").write_bytes(b"")
     (tmp_path / there).write_bytes(b"")
-    assert problems(tmp_path / asked) == (f"no such file; {told.format(tmp_path)}",)
+    lacks = "no such file" if asked.endswith(".xlsx") else "a folder without input.xlsx"
+    assert problems(tmp_path / asked) == (f"{lacks}; {told.format(tmp_path)}",)
 
 
 def test_a_missing_file_is_reported(tmp_path):
     wanted = "use a workbook, or a folder that contains input.xlsx"
     assert problems(tmp_path / "none.xlsx") == (f"no such file; {wanted}",)
-    assert problems(tmp_path) == (f"no such file; {wanted}",)
+    assert problems(tmp_path) == (f"a folder without input.xlsx; {wanted}",)
     os.mkfifo(tmp_path / "input.xlsx")
     assert problems(tmp_path) == (f"not a file; {wanted}",)
 

@@ -391,6 +391,15 @@ def test_what_is_missing_is_reported_once(tmp_path, change, line):
     assert problems(edit(make(tmp_path), change)) == with_addresses(*line.splitlines())
 
 
+def test_another_workbook_is_told_in_one_line_not_as_missing_worksheets(tmp_path):
+    def foreign(book):
+        book.remove(book["Project"])
+        book.remove(book["Site"])
+
+    (line,) = problems(edit(make(tmp_path), foreign))
+    assert line.startswith("not an input workbook: the worksheets Project and Site are missing;")
+
+
 @pytest.mark.parametrize(
     ("name", "to"),
     by_day([("Arrays/A1/Friction test report", (1, 0)), ("Site/Structure height h", (1, 0)),
