@@ -4,8 +4,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from fixtures.browser import opened, quiet_page, serve_scripts, served
+from report.web import app as web_app
 from report.web.access import KEY_HEADER, Keys
-from report.web.app import made
 from report.web.session import Session
 
 HOST = "127.0.0.1:8765"
@@ -16,15 +16,24 @@ def keys():
     return Keys()
 
 
+class UnpreparedSession(Session):
+    """One whose processes start with the first request: one process less."""
+
+    def start(self):
+        pass
+
+    def prepare(self, workbook):
+        pass
+
+
 @pytest.fixture(scope="session")
 def serving(keys, tmp_path_factory):
     """The server, ended with the tests."""
-    app = made(keys, tmp_path_factory.mktemp("served"), [HOST])
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Session, "start", lambda _: None)  # one process less
-        patch.setattr(Session, "prepare", lambda *_: None)
-        with TestClient(app, base_url=f"http://{HOST}", follow_redirects=False) as client:
-            yield client
+        patch.setattr(web_app, "Session", UnpreparedSession)
+        app = web_app.made(keys, tmp_path_factory.mktemp("served"), [HOST])
+    with TestClient(app, base_url=f"http://{HOST}", follow_redirects=False) as client:
+        yield client
 
 
 @pytest.fixture
