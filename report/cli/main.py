@@ -107,6 +107,11 @@ def main() -> None:
             is_error=True,
         )
         sys.exit(INPUT_ERROR)
+    threads = os.environ.get("NUMBA_NUM_THREADS", "1")
+    if not threads.isdecimal() or int(threads) == 0:
+        fault = f"The environment variable NUMBA_NUM_THREADS is '{threads}'"
+        say(f"{fault}; set it to a number of threads, 1 or more, or remove it.", is_error=True)
+        sys.exit(INPUT_ERROR)
     stay_apart()
 
 

@@ -76,6 +76,17 @@ def test_a_working_folder_that_is_gone_is_an_input_error(tmp_path):
     assert done.stderr == "The working folder no longer exists; change to another folder.\n"
 
 
+@pytest.mark.quick
+@pytest.mark.parametrize("threads", ["0", "-2", "two", ""])
+def test_a_number_of_threads_that_is_none_is_an_input_error(monkeypatch, threads):
+    """Numba ends with a traceback at zero, and takes another text for all cores."""
+    monkeypatch.setenv("NUMBA_NUM_THREADS", threads)
+    assert errors_of("check", "projects/example") == (
+        f"The environment variable NUMBA_NUM_THREADS is '{threads}'; set it to a number of "
+        "threads, 1 or more, or remove it.\n"
+    )
+
+
 # Starts every command, one after the other, and prints how each ended.
 EVERY_COMMAND = """
 import sys, click
