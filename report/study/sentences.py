@@ -94,8 +94,8 @@ def design(rule: DesignRule) -> str:
 def spread(results: StudyResults) -> str:
     """Return the scatter of the response spectra of the motions."""
     spectra, motions = results.spread, results.plan.design_rule.n_motions
-    differ = f"the spectra of the {motions} motions differ by a standard deviation of ln Sa of"
-    return f"{differ} {digits_up(spectra.median, 2)} in the median"
+    median = f"a median standard deviation of ln Sa of {digits_up(spectra.median, 2)}"
+    return f"the spectra of the {motions} motions have {median}"
 
 
 def _no_record_spread(results: StudyResults) -> str:

@@ -83,9 +83,9 @@ def said(results, motions):
 def test_the_limits_name_the_spread_and_call_it_small_only_where_it_is(results):
     alike = said(results, [like(1, 1.0), like(1, 1.02)])
     assert "almost no record-to-record spread: the 84th percentile does not contain" in alike
-    assert "standard deviation of ln Sa of 0.015 in the median and 0.015 at most" in alike
+    assert "have a median standard deviation of ln Sa of 0.015 and a maximum of 0.015" in alike
     other = said(results, [motion(k) for k in range(4)])
-    assert "differ by a standard deviation of ln Sa of" in other
+    assert "have a median standard deviation of ln Sa of" in other
     assert "almost no record-to-record spread" not in other
     assert "spectra of the" not in said(results, [motion(1)])
 
@@ -126,8 +126,8 @@ def test_a_fragility_without_record_to_record_dispersion_is_not_exported(results
 def test_allow_matched_writes_the_warning_in_the_comments(results):
     found = with_state(results, MATCHED, allow_matched=True)
     wanted = (
-        "Warning: the spectra of the 3 motions differ by a standard deviation of ln Sa of 0.021 in "
-        "the median, as motions matched to one spectrum do, and β does not contain the "
+        "Warning: the spectra of the 3 motions have a median standard deviation of ln Sa of 0.021, "
+        "as motions matched to one spectrum do, and β does not contain the "
         "record-to-record dispersion of earthquakes. Written with --allow-matched."
     )
     assert warnings(found) == [wanted]
