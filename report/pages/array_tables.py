@@ -1,4 +1,4 @@
-"""Tables of the arrays: of the summary, the letter, the comparison, and the schedule for the field.
+"""Tables of the arrays: of the summary, the letters, the comparison, the schedule for the field.
 
 Computes nothing. Each table is a list of columns over the arrays of the assessment.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 
 from report.assessment.assessment import Assessment
 from report.assessment.causes import unshown_cause
@@ -22,6 +23,7 @@ from report.document.tables import Column, Table, listed, merged
 from report.pages.parts import PackageData, bar
 from report.text.amounts import capacity, demand, shown_in_order
 from report.text.units import Show, no_less, no_more
+from solver.rules.provisions import SEPARATION_KEYS, Neighbor
 
 
 def summary_table(package: PackageData) -> Table:
@@ -76,6 +78,31 @@ def letter_table(package: PackageData) -> Table:
         (centered("Verdict", 1.3), done.array_verdict, lambda item: _cause(done, item)),
     ]
     return merged(_table(package, columns), "Array", "Governing clearance")
+
+
+_SEPARATIONS = {
+    "To a similar array": Neighbor.LIKE,
+    "To an object or other array": Neighbor.FIXED,
+    "To an edge with parapet": Neighbor.PARAPET,
+    "To an edge without parapet": Neighbor.EDGE,
+}
+
+
+def permit_table(package: PackageData) -> Table:
+    """Return the arrays of the permit letter with four separations, in one system of units."""
+    done, marks = package.assessment, package.marks
+    columns: list[Column] = [
+        (words("Array", 0.9), lambda item: item.id),
+        (plain("Slope", 2, "deg", 0.8), lambda item: math.degrees(item.array.slope_rad)),
+        (text("μ"), lambda item: mu_words(item.array.friction)),
+        (required("Δ", 0.8), lambda item: item.design_m, marks.design),
+    ]
+    for head, neighbor in _SEPARATIONS.items():
+        separation_m = partial(keep_clear_m, done, neighbor=neighbor)
+        mark = marks.of(SEPARATION_KEYS[neighbor])
+        columns.append((required(head, 1.2), separation_m, lambda _, mark=mark: mark))
+    columns.append((centered("Verdict", 1.2), done.array_verdict))
+    return _table(package, columns, systems=1)
 
 
 def comparison_table(package: PackageData) -> Table:

@@ -178,6 +178,16 @@ def open_cells(check: Check, us_first: bool) -> tuple[str, str, str, str]:
     return title, found_text, required, check.actor.value
 
 
+def open_table(done: Assessment) -> Table:
+    """Return the open checks and who must act; NG items are marked."""
+    rows = []
+    for check in done.open:
+        mark = stamp(check.verdict) if check.verdict is Verdict.NG else ""
+        rows.append((*map(with_symbols, open_cells(check, done.project.us_first)), mark))
+    heads = ("Open", 2.2), ("Found", 2.6), ("Required", 3.5), ("Action by", 0.9)
+    return headed(*heads, ("", 0.3, "center"), rows=rows, kind="compact")
+
+
 def all_checks(done: Assessment) -> Table:
     """Return every check but clearances and limits on motions, satisfied or not, in both systems.
 

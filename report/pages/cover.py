@@ -25,7 +25,6 @@ def page(package: PackageData) -> Mapping[str, object]:
     columns = ("Rev.", 0.6), ("Date", 1.2), ("Description", 4), ("By", 1.8)
     only = f": {revisions[0].description}" if len(revisions) == 1 else ""
     return {
-        "kind": "calculation package",
         "name": project.name,
         "about": list(_facts(package, only)),
         "license": project.license,

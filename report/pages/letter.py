@@ -18,7 +18,6 @@ from report.text.counts import counted, spelled
 from report.text.grouping import ids_by
 from report.text.letter_case import capitalized, lowered
 from report.text.names import ranged
-from report.text.units import number
 
 
 def page(package: PackageData) -> Mapping[str, object]:
@@ -27,11 +26,9 @@ def page(package: PackageData) -> Mapping[str, object]:
     n_overrides, summary = len(data.overrides), package.part("summary")
     lowered_checks = [check for check in done.checks if check.id in LOWERING]
     return {
-        "project": data.project,
+        "data": data,
         "scope": _scope(package),
         "rules": done.rules.name,
-        "s_ds": number(data.site.s_ds, 3),
-        "sdc": data.site.sdc_text,
         "verdict": stamp(done.verdict, done.verdict.value),
         "verdict_sentence": verdict_sentence(done, f"in {summary}"),
         "arrays": letter_table(package),
@@ -53,8 +50,6 @@ def page(package: PackageData) -> Mapping[str, object]:
         "is_unpermitted": any(math.isnan(item.permitted_m) for item in done.arrays),
         "friction": _friction(package),
         "report": friction_report(data.friction_tests),
-        "membrane": data.friction_tests.membrane,
-        "support": data.friction_tests.support,
         "has_motions": done.has_motions,
         "workbook": done.source.path.name,
     }

@@ -96,7 +96,7 @@ PAGES = (
 
 # Of the edition letter.
 LETTER_PAGES = (
-    Page("permit", "Displacements and separations", _alone(permit.letter)),
+    Page("permit", "Displacements and separations", _alone(permit.page)),
     Page("permit-plan", "Roof plan and schedule of clearances", _alone(plan.page)),
 )
 

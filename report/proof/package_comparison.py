@@ -62,9 +62,8 @@ def compared(package: OpenedPackage, made: OpenedPackage) -> Proof:
     first = guarded(lambda: next(_reasons(package, made, later, is_same=is_same), ""))
     if first:
         # A number that an earlier version had wrong differs, too.
-        is_other = _is_other(package.manifest.roofslip_version)
-        made_by = (_other_version(package.manifest),) if is_other else ()
-        return Proof(answer=Agreement.DIFFERS, reasons=(first, *made_by), signed=later.signed)
+        told = tuple(filter(None, (first, _other_version(package.manifest))))
+        return Proof(answer=Agreement.DIFFERS, reasons=told, signed=later.signed)
     # Drawings are never compared: another version of a library may move a line by a thousandth.
     reasons = [] if is_same else [_not_compared(package.manifest, made.manifest)]
     reasons += [] if later.is_checked else [_UNCHECKED]
@@ -80,14 +79,15 @@ def failed(package: OpenedPackage, problems: Sequence[str]) -> Proof:
     """Return the outcome for a package whose input does not run here."""
     reason = f"its input cannot be run: {'; '.join(problems)}"
     # What another version accepted may be refused here, and is then no sign of tampering.
-    if not _is_other(package.manifest.roofslip_version):
+    other = _other_version(package.manifest)
+    if not other:
         return Proof(answer=Agreement.DIFFERS, reasons=(reason,))
-    return Proof(answer=Agreement.PARTLY, reasons=(_other_version(package.manifest), reason))
+    return Proof(answer=Agreement.PARTLY, reasons=(other, reason))
 
 
 def _not_compared(theirs: Manifest, ours: Manifest) -> str:
-    if _is_other(theirs.roofslip_version):
-        return f"{_other_version(theirs)}; text and drawings not compared: {_READ}"
+    if other := _other_version(theirs):
+        return f"{other}; text and drawings not compared: {_READ}"
     versions = [
         f"{name} {theirs.environment.get(name, 'none')} (here {version})"
         for name, version in ours.environment.items()
@@ -100,15 +100,13 @@ def _not_compared(theirs: Manifest, ours: Manifest) -> str:
 _READ = "read the regenerated package"
 
 
-def _is_other(theirs: str) -> bool:
-    # Of an unknown commit, or of one that was edited, there are many programs of the same name.
-    return theirs != version() or theirs.endswith(("+unknown", ".dirty"))
-
-
 def _other_version(theirs: Manifest) -> str:
-    return (
-        f"Roofslip {theirs.roofslip_version} created it: install that version to compare everything"
-    )
+    """Return that another version created a package; nothing if it was this one."""
+    name = theirs.roofslip_version
+    # Of an unknown commit, or of one that was edited, there are many programs of the same name.
+    if name == version() and not name.endswith(("+unknown", ".dirty")):
+        return ""
+    return f"Roofslip {name} created it: install that version to compare everything"
 
 
 def _reasons(
@@ -122,7 +120,7 @@ def _reasons(
     if is_same and later.is_checked:
         return
     # Versions differ in which keys they write, and in the words of their pages.
-    is_shared = _is_other(package.manifest.roofslip_version)
+    is_shared = bool(_other_version(package.manifest))
     if not is_shared:
         listed = (_listing(package), _listing(made))
         yield from (f"{MANIFEST}: {text}" for text in differences(*listed))

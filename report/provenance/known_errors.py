@@ -44,12 +44,8 @@ def touching(made_by: str, results: Any) -> Iterator[KnownError]:
     except InvalidVersion:
         made = Version("0")  # it may be any: an error is named rather than left out
     for error in known_errors():
-        if error.of == "package" and made <= Version(error.until) and _holds(results, error.needs):
+        needed = results
+        for key in filter(None, error.needs.split(".")):
+            needed = needed.get(key) if isinstance(needed, dict) else None
+        if error.of == "package" and made <= Version(error.until) and needed:
             yield error
-
-
-def _holds(results: Any, place: str) -> bool:
-    """Whether an unchecked results.json contains something at a place."""
-    for key in filter(None, place.split(".")):
-        results = results.get(key) if isinstance(results, dict) else None
-    return bool(results)

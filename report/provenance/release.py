@@ -13,9 +13,6 @@ from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parents[2]
 
-# What `git archive` and the ZIP of a forge write the commit into.
-STAMP = ".git_archival.json"
-
 # No tag: a clone without the tags would else count other commits than one with them.
 _NO_TAG = "(?P<base>(?!))"
 
@@ -50,7 +47,8 @@ def of_folder(folder: Path) -> str:
 
 
 def _names_a_commit(folder: Path) -> bool:
-    # Of this folder itself: the folder above may be another repository.
-    stamp = folder / STAMP
+    # What `git archive` and the ZIP of a forge write the commit into. Of this folder itself: the
+    # folder above may be another repository.
+    stamp = folder / ".git_archival.json"
     is_stamped = stamp.is_file() and "$Format" not in stamp.read_text(encoding="utf-8")
     return is_stamped or (folder / ".git").exists()

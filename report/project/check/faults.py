@@ -137,24 +137,19 @@ def _smaller_events(inputs: Inputs, where: Where) -> Iterator[Finding]:
             yield Finding.error(place, fault, f"{remedy}, such as 0.50, 0.25")
 
 
-MOST_IN_LETTER = 6
-
-
 def _letter_edition(inputs: Inputs, where: Where) -> Iterator[Finding]:
     """Yield inputs that do not fit on the two sheets of the letter edition."""
     n_arrays = len(inputs["arrays"])
+    rejections = {
+        f"permits at most six arrays; {n_arrays} are entered": n_arrays > 6,
+        "does not permit an analysis, but motions are listed": inputs["motions"],
+        "does not permit overrides": inputs["overrides"],
+    }
     remedy = "choose plan check or complete, or delete what the letter cannot contain"
     for place, edition in column(inputs, ("options",), "package_edition"):
-        if edition != PackageEdition.LETTER:
-            continue
-        if n_arrays > MOST_IN_LETTER:
-            fault = f"edition is letter, which permits at most six arrays; {n_arrays} are entered"
-            yield Finding.error(place, fault, "choose plan check or complete")
-        if inputs["motions"]:
-            fault = "edition is letter, which does not permit an analysis, but motions are listed"
-            yield Finding.error(place, fault, remedy)
-        if inputs["overrides"]:
-            yield Finding.error(place, "edition is letter, which does not permit overrides", remedy)
+        for fault, is_found in rejections.items():
+            if edition == PackageEdition.LETTER and is_found:
+                yield Finding.error(place, f"edition is letter, which {fault}", remedy)
 
 
 def _overrides(inputs: Inputs, where: Where) -> Iterator[Finding]:
