@@ -23,6 +23,7 @@ from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Mount, Route
 from starlette.staticfiles import StaticFiles
 
+from report.typeset.pdf import TEMPLATES
 from report.web.access import ENTRY, TOKEN_HEADER, Access, Keys
 from report.web.files import blank, is_alone, package_routes, receive_json, received, workbook
 from report.web.session import (
@@ -38,15 +39,7 @@ from report.web.session import (
 from report.web.worker import FULL, copied, is_full
 from solver.errors import InputError
 
-_HERE = Path(__file__).resolve().parent
-STATIC = _HERE / "static"
-# In a wheel the templates are inside the package, in a checkout beside it.
-_REPORT = _HERE.parent
-FONTS = next(
-    path
-    for path in (_REPORT / "templates" / "fonts", _REPORT.parent / "templates" / "fonts")
-    if path.is_dir()
-)
+STATIC = Path(__file__).parent / "static"
 
 # Windows takes the type of a file from its registry, where scripts may be plain text.
 mimetypes.add_type("text/javascript", ".js")
@@ -83,23 +76,11 @@ def made(keys: Keys, folder: Path, hosts: Collection[str]) -> Starlette:
             Route("/api/workbook", workbook, methods=["POST"]),
             Route("/api/blank", blank),
             *package_routes(),
-            Mount("/static/fonts", StaticFiles(directory=FONTS)),
+            Mount("/static/fonts", StaticFiles(directory=TEMPLATES / "fonts")),
             Mount("/static", StaticFiles(directory=STATIC)),
         ],
         middleware=[Middleware(Access, keys=keys, hosts=hosts)],
-        exception_handlers={
-            InputError: _refused,
-            RefusedError: _refused,
-            # By its number api.js tells a request that is replaced.
-            StaleError: _told(409, "A newer request of this page came."),
-            LostError: _told(503, "The process that computes has ended. Try it again."),
-            ClosedError: _told(
-                412, "This project is no longer open here. Open its workbook and records again."
-            ),
-            HTTPException: _failed,
-            ClientDisconnect: _told(400, "The request did not arrive whole."),
-            OSError: _not_written,
-        },
+        exception_handlers=dict.fromkeys((InputError, HTTPException, OSError, *_TOLD), _failed),
         lifespan=lifespan,
     )
 
@@ -226,30 +207,30 @@ async def _job(request: Request) -> Response:
     return JSONResponse(await session_of(request).ask(job, asked))
 
 
-async def _refused(_: Request, error: Exception) -> Response:
-    if isinstance(error, RefusedError):
-        return _error(str(error), 422, error.problems)
-    return _error(str(error).partition("\n")[0], 422)
-
-
-def _told(status: int, sentence: str) -> Callable[[Request, Exception], Awaitable[Response]]:
-    """Return what answers an error with what it says, or with a sentence where it says nothing."""
-
-    async def handle(_: Request, error: Exception) -> Response:
-        return _error(str(error) or sentence, status)
-
-    return handle
-
-
-async def _not_written(_: Request, error: Exception) -> Response:
-    if not is_full(error):
-        raise error
-    return _error(FULL, 507)
+_TOLD: Mapping[type[Exception], tuple[int, str]] = {
+    RefusedError: (422, ""),
+    # By its number api.js tells a request that is replaced.
+    StaleError: (409, "a newer request of this page came."),
+    LostError: (503, "the process that computes has ended. Try it again."),
+    ClosedError: (
+        412, "this project is no longer open here. Open its workbook and records again."
+    ),
+    ClientDisconnect: (400, "the request did not arrive whole."),
+}  # fmt: skip
+"""Errors with their status, and what is said where they say nothing."""
 
 
 async def _failed(_: Request, error: Exception) -> Response:
-    assert isinstance(error, HTTPException)
-    return _error(f"{error.detail}.", error.status_code)
+    if isinstance(error, HTTPException):
+        return _error(f"{error.detail}.", error.status_code)
+    if isinstance(error, InputError):
+        return _error(str(error).partition("\n")[0], 422)
+    if is_full(error):
+        return _error(FULL, 507)
+    if type(error) not in _TOLD:
+        raise error
+    status, sentence = _TOLD[type(error)]
+    return _error(str(error) or sentence, status, getattr(error, "problems", ()))
 
 
 def _error(sentence: str, status: int, problems: Sequence[Mapping[str, Any]] = ()) -> Response:

@@ -20,7 +20,7 @@ from report.project.read.archive import OpenBook, open_book
 from report.project.read.locate import find_table
 from report.project.read.positions import CellPosition, found_at
 from report.project.workbook import SECTIONS
-from report.project.workbook.entries import Entry, SheetSection
+from report.project.workbook.entries import SheetSection
 from report.text.typed_letters import cut
 from solver.errors import InputError, Problem
 
@@ -113,53 +113,45 @@ def tables(path: Path) -> list[Mapping[str, Any]]:
 
 def _table(book: OpenBook, section: SheetSection) -> Mapping[str, Any]:
     table = find_table(book, section)
-    title, entries = (
-        table.heading.sheet,
-        {
-            table.columns[entry.name].number: entry
-            for entry in section.entries
-            if entry.name in table.columns and (entry.is_expected or entry.name in SIDES)
-        },
-    )
-    texts = {row: [_text(book, title, row, number) for number in entries] for row in table.rows}
-    heads = {number: _text(book, title, table.heading.row, number) for number in entries}
-    filled = [row for row, cells in texts.items() if any(cells)]
-    after = max([table.heading.row, *filled]) + 1
+    title, heading = table.heading.sheet, table.heading.row
+    entries = {
+        table.columns[entry.name].number: entry
+        for entry in section.entries
+        if entry.name in table.columns and (entry.is_expected or entry.name in SIDES)
+    }
+    texts = {
+        row: {number: _text(book, title, row, number) for number in entries}
+        for row in (heading, *table.rows)
+    }
+    filled = [row for row in table.rows if any(texts[row].values())]
+    after = max([heading, *filled]) + 1
+
+    def field(row: int, number: int) -> Mapping[str, Any]:
+        where = CellPosition(title, row, number).address
+        label, choices = f"{texts[heading][number]}, {where}", list(entries[number].choices)
+        text = texts.get(row, {}).get(number, "")
+        return {"where": where, "text": text, "label": label, "choices": choices}
+
     return {
         "sheet": title,
         "is_open": section.key == "arrays" and not filled,
         "heads": [
-            {
-                "text": heads[number],
-                "need": entry.needed,
-                "help": entry.note,
-            }
+            {"text": texts[heading][number], "need": entry.needed, "help": entry.note}
             for number, entry in entries.items()
         ],
         "rows": [
-            [
-                _field(CellPosition(title, row, number), text, heads[number], entries[number])
-                for number, text in zip(entries, texts.get(row, [""] * len(entries)), strict=True)
-            ]
-            for row in [*filled, *range(after, after + _BLANK_ROWS)]
+            [field(row, number) for number in entries]
+            for row in (*filled, *range(after, after + _BLANK_ROWS))
         ],
     }
 
 
-def _field(position: CellPosition, text: str, head: str, entry: Entry) -> Mapping[str, Any]:
-    where = f"{position.sheet}!{position.cell}"
-    label, choices = f"{head}, {where}", list(entry.choices)
-    return {"where": where, "text": text, "label": label, "choices": choices}
-
-
 def typed_cells(typed: Mapping[str, str]) -> Mapping[CellPosition, float | str | None]:
     """Return the typed values by cell, such as `Site!B26`, as in Excel."""
-    return dict(_typed_cell(*pair) for pair in typed.items())
-
-
-def _typed_cell(address: str, text: str) -> tuple[CellPosition, float | str | None]:
-    title, _, cell = address.rpartition("!")
-    position = CellPosition(title, *coordinate_to_tuple(cell))
-    if not text.strip():
-        return position, None
-    return position, float(text) if _NUMBER.fullmatch(text.strip()) else text.strip()
+    cells: dict[CellPosition, float | str | None] = {}
+    for address, given in typed.items():
+        title, _, cell = address.rpartition("!")
+        text = given.strip()
+        value = float(text) if _NUMBER.fullmatch(text) else text or None
+        cells[CellPosition(title, *coordinate_to_tuple(cell))] = value
+    return cells
