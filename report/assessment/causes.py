@@ -24,6 +24,9 @@ def failed(done: Assessment) -> Sequence[Check]:
     of_all = [check for check in done.open if check.verdict is Verdict.NG]
     # Only of what lacks nothing but a design displacement another check says why.
     causes = [check for check in of_all if not check.lacks_design] or of_all
+    # A limit on the motions may be one on each array as well: the two say the same.
+    titles = {check.title for check in causes if check.id != MOTIONS_ID}
+    causes = [check for check in causes if check.id != MOTIONS_ID or check.title not in titles]
     # That no displacement is permitted follows from the others, too.
     ordered = sorted(causes, key=size, reverse=True)
     return sorted(ordered, key=lambda check: check.id == "design")

@@ -191,8 +191,9 @@ def _markup(section: Element, numbers: Mapping[str, str], shades: Mapping[str, s
         element.attrib.pop("style", None)
         # For the number of a sheet the file has that of a section, which it may lack.
         if element.get("class") == "at":
-            target = element.get("href", "").removeprefix("#")
+            target = element.get("href", "").removeprefix("#").partition(":")[0]
             element.text = numbers[target]
+            element.set("href", f"#{target}")
             if target not in SECTIONS:
                 element.tag, element.attrib = "span", {}
         elif element.tag == "th" and element.text == "Sheet":

@@ -9,7 +9,7 @@ from functools import partial
 
 from markupsafe import Markup
 
-from report.document.columns import length, plain, required, text, words
+from report.document.columns import plain, required, text, words
 from report.document.tables import Column, Table, listed
 from report.motions.history import first_period_s
 from report.pages.parts import MOTION_ROWS, PackageData
@@ -157,9 +157,9 @@ def _variations(
         (plain("Period", 3, "s"), lambda row: row[0].period_s),
         (plain("Period", 2, "/ used"), lambda row: row[0].period_s / used.period_s),
         (plain("Damping", 1, "% of critical"), lambda row: row[0].damping_percent),
-        (length("Mean PRD"), lambda row: row[1].mean_m),
+        (required("Mean PRD"), lambda row: row[1].mean_m),
         (plain("Mean PRD", 2, "/ used"), lambda row: row[1].mean_m / (value.mean_m or math.nan)),
-        (length("Largest PRD"), lambda row: row[1].largest_m),
+        (required("Largest PRD"), lambda row: row[1].largest_m),
         (required("Analysis displacement"), lambda row: row[1].value_m),
     )
     return listed(variations, columns, package.fmt, kind="compact", whole_rows=len(variations))

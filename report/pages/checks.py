@@ -26,8 +26,7 @@ from report.text.units import ratio
 
 # The part with the numbers behind a kind of check; of the others the part on checks.
 _PARTS = {
-    "plan": ("clearance", "neighbors", "roof_outline", "drawing_distances", "fire_pathway",
-             "fire_pathways"),
+    "plan": ("neighbors", "roof_outline", "drawing_distances", "fire_pathways"),
     "model": ("tipping", "links"),
     "results": ("design", "runs"),
     "motions": ("motions", "drift", "ground_motions"),
@@ -37,12 +36,23 @@ _PARTS = {
     "inputs-site": ("building_code", "code_edition", "hazard_source", "sdc", "site_class",
                     "dates", "site_specific_hazard", "rule_set", "edition_name"),
 }  # fmt: skip
+_SCHEDULED = ("clearance", "fire_pathway")
 
 
-def part_of(check: Check, numbers: Mapping[str, str]) -> str:
-    """Return the part with the numbers behind a check, of those that a package has."""
+def place_of(check: Check, numbers: Mapping[str, str]) -> str:
+    """Return the place with the numbers behind a check: a part, or in it a row or table.
+
+    A row of the part on checks may be on its second sheet, and the schedule of clearances beside
+    a large plan.
+    """
+    if check.id in _SCHEDULED:
+        return "plan:schedule"
     part = next((part for part, kinds in _PARTS.items() if check.id in kinds), "limits")
-    return part if part.partition("-")[0] in numbers else "limits"
+    return part if part.partition("-")[0] in numbers and part != "limits" else _row_name(check)
+
+
+def _row_name(check: Check) -> str:
+    return f"limits:{check.id}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,11 +77,16 @@ class FirstSheet:
 def first_sheet(done: Assessment) -> FirstSheet:
     """Return NG items, the conditions, and the largest ratio of every other type."""
     causes = failed(done)
+    conditions = [check for check in done.open if check.verdict is not Verdict.NG]
     return FirstSheet(
         failed=causes,
-        n_following=sum(check.verdict is Verdict.NG for check in done.open) - len(causes),
+        n_following=sum(
+            check.verdict is Verdict.NG and check.lacks_design and check not in causes
+            for check in done.open
+        ),
         largest=largest(done),
-        conditions=[check for check in done.open if check.verdict is not Verdict.NG],
+        # There may be no room for all: those with another result if not met are first.
+        conditions=sorted(conditions, key=lambda check: not check.otherwise),
     )
 
 
@@ -131,10 +146,17 @@ def verdict_sentence(done: Assessment, conditions: str = "below") -> str:
     if n_open:
         opened = f"The {counted(n_open, 'open condition')} {conditions}"
         text = f"No check is NG. {opened} must be closed before the package is complete."
-    elif any(check.is_excepted for check in done.checks):
-        text = f"All {total} checks are satisfied, or exceeded where the rule set permits it."
     else:
-        text = f"All {total} checks are satisfied."
+        count = sum(check.is_satisfied for check in done.checks)
+        n_notes = total - count
+        are = "is" if count == 1 else "are"
+        text = f"{f'{count} of' if n_notes else 'All'} {total} checks {are} satisfied"
+        if any(check.is_excepted for check in done.checks):
+            text += ", or exceeded where the rule set permits it"
+        if n_notes:
+            others = "other has" if n_notes == 1 else "others have"
+            text += f"; the {others} no effect on the design displacement"
+        text += "."
     return text if done.clearances else f"{text} No clearance is entered, so none is checked."
 
 
@@ -195,10 +217,14 @@ def all_checks(done: Assessment) -> Table:
     """
     us_first = done.project.us_first
     listed_checks = (check for check in done.checks if check.id not in APART)
-    rows = []
+    rows, named = [], set[str]()
     for check in alike(listed_checks):
         pair = found_and_limit(check, us_first)
-        cells = check.subject or "project", check.title, *pair, _ratio(check), check.clause
+        title = with_symbols(check.title)
+        if (name := _row_name(check)) not in named:
+            title = Markup('<span id="{}">{}</span>').format(name, title)
+            named.add(name)
+        cells = check.subject or "project", title, *pair, _ratio(check), check.clause
         rows.append(_row(*cells, check.verdict))
         if check.is_open and check.to_close:
             rows.append(_below(f"To close: {check.to_close}", len(cells) + 1))
@@ -241,6 +267,6 @@ def _ratio(check: Check) -> str:
 
 
 def _sheet(check: Check, numbers: Mapping[str, str], place: str) -> Markup:
-    """Return the number of the sheet on which a part begins, which the layout fills in."""
+    """Return the number of the sheet with the numbers behind a check; the layout fills it in."""
     name = Markup(' id="{}"').format(place) if place else ""
-    return Markup('<a class="at"{} href="#{}"></a>').format(name, part_of(check, numbers))
+    return Markup('<a class="at"{} href="#{}"></a>').format(name, place_of(check, numbers))

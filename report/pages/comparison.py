@@ -82,15 +82,15 @@ def _routes(package: PackageData, item: ArrayAssessment) -> str:
     if math.isnan(item.design_m):
         return _sentences(["no analysis displacement", status])
     n_above = sum(run.governing.prd_m > given_m for run in item.motions)
-    above = f"{n_above} of {len(item.motions)} PRDs"
+    above = f"{n_above} of {len(item.motions)} PRDs {'exceeds' if n_above == 1 else 'exceed'}"
     if analysis.value_m > given_m:
         parts.append(
             f"the analysis displacement is {number(analysis.value_m / given_m, 2)} times the "
-            f"prescriptive displacement ({above} exceed it) and governs"
+            f"prescriptive displacement ({above} it){' and governs' if item.is_permitted else ''}"
         )
     elif n_above:
         parts.append(
-            f"{above} exceed the prescriptive displacement, but the analysis displacement does not"
+            f"{above} the prescriptive displacement, but the analysis displacement does not"
         )
     if package.data.is_peer_reviewed:
         parts.append("no floor applies because the analysis is peer reviewed")

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from report.assessment.design.arrays import ArrayAssessment
-from report.assessment.design.friction import mu_words
+from report.assessment.design.friction import mus_words
 from report.assessment.design.tested_friction import tested
 from report.document.columns import (
     ColumnHead,
@@ -87,7 +87,7 @@ def page(package: PackageData) -> Mapping[str, object]:
     millimeters, inches = number(1000.0 * DEFAULT.matters_m, 0), DEFAULT.matters_m / INCH_M
     varied = [array for array in data.arrays if not array.friction.is_constant]
     return {
-        "varied": [f"{array.id}: {mu_words(array.friction)}" for array in varied],
+        "varied": mus_words(varied),
         "is_tested": bool(tested(data)),
         "has_ground": package.has_ground,
         "n_motions": len(motions),

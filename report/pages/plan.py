@@ -162,8 +162,14 @@ def _distances(package: PackageData, gaps: Sequence[NumberedGap]) -> Mapping[str
     factors = grouped_by(gaps, lambda gap: (gap.check.neighbor.value, gap.check.factor))
     bases = grouped_by(gaps, lambda gap: gap.check.basis.value)
     unpermitted = [item.id for item in done.arrays if not item.is_permitted]
+    ids = {array.id for array in package.data.arrays}
     return {
         "n_gaps": len(gaps),
+        # Of the same product arrays may still differ.
+        "has_differing_arrays": any(
+            gap.check.clearance.object in ids and gap.check.neighbor is not Neighbor.LIKE
+            for gap in gaps
+        ),
         "undrawn": _some([gap.number for gap in gaps if gap.number not in drawn]),
         "clauses": ", ".join(dict.fromkeys(marks.clause(gap.key) for gap in gaps)),
         "factors": "; ".join(

@@ -25,6 +25,7 @@ from report.text.counts import numbered
 from report.text.letter_case import capitalized, lowered
 from report.text.names import named
 from report.text.units import number
+from solver.rules.provisions import Basis
 
 
 def page(
@@ -64,7 +65,9 @@ def page(
         "n_conditions": len(sheet.conditions),
         "more": capitalized(numbered(sheet.n_more, "more condition")) if sheet.n_more else "",
         "effects": list(_what_if(package, evidence)) if sheet.has_effects else [],
-        "notes": "; ".join(lowered(check.title) for check in notes) if sheet.has_remedies else "",
+        "notes": "; ".join(dict.fromkeys(lowered(check.title) for check in notes))
+        if sheet.has_remedies
+        else "",
     }
 
 
@@ -90,10 +93,12 @@ def _caption(package: PackageData) -> str:
         return f"Arrays: prescriptive displacement ({clause}) and design displacement"
     analysis, mark = done.governing.analysis, package.marks.of("analysis_factor")
     motions = numbered(analysis.n_motions, "motion") + mark
-    return (
-        f"Arrays: analysis displacement ({statistic(analysis.basis)} of {motions}, "
-        f"{values['analysis_factor'].clause}), prescriptive and design displacement"
-    )
+    if analysis.basis is Basis.TOO_FEW:
+        basis = f"none: {analysis.basis}"
+    else:
+        clause = values["analysis_factor"].clause
+        basis = f"{statistic(analysis.basis)} of {motions}, {clause}"
+    return f"Arrays: analysis displacement ({basis}), prescriptive and design displacement"
 
 
 def _enough(done: Assessment, remedies: Remedies) -> str:

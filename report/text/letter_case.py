@@ -9,5 +9,9 @@ def capitalized(text: str) -> str:
 
 
 def lowered(text: str) -> str:
-    """Return a text with its first letter in lower case, as within a sentence."""
-    return text[:1].lower() + text[1:]
+    """Return a text with its first letter in lower case, as within a sentence.
+
+    A symbol such as V/N, an abbreviation and Risk Category stay as they are.
+    """
+    is_word = text[1:2].islower() or text[1:2] == " "
+    return text[:1].lower() + text[1:] if is_word and not text.startswith("Risk Category") else text

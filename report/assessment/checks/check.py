@@ -166,8 +166,10 @@ class Check:
         elif self.sense is Sense.EQUAL:
             pair.sort(reverse=True)
         demand, capacity = pair
-        # Nothing required of nothing is 0: an array that does not slide needs no slack.
-        value = demand / capacity if capacity else math.inf if demand else 0.0
+        # Nothing required of nothing is 0: an array that does not slide needs no slack. Of a
+        # pathway into which arrays slide farther than it is wide, less than nothing is left.
+        is_none = capacity <= 0.0
+        value = (math.inf if demand > 0.0 else 0.0) if is_none else demand / capacity
         # A slope that peer review permits beyond its limit would be printed as D/C 1.20 beside OK.
         return math.nan if self.is_satisfied and value > 1.0 + _NOISE else value
 

@@ -64,7 +64,9 @@ def against_analysis(
     limits = (*acceptance.missed, *item.analysis_checks)
     missed = [limit for limit in limits if not limit.ok and limit.consequence is Consequence.NG]
     lacking = lacking_motions(rules, statistic_basis(data), n_motions)
-    return [words(of_limit(limit)) for limit in missed] or [lacking] * bool(lacking)
+    # The number of motions is a limit on the motions and on each array: the two say the same.
+    reasons = list(dict.fromkeys(words(of_limit(limit)) for limit in missed))
+    return reasons or [lacking] * bool(lacking)
 
 
 def of_limit(limit: Limit, subject: str = "") -> Check:
@@ -131,8 +133,8 @@ def _override(rule: Provision, index: int, row: Override) -> Check:
         id=OVERRIDE_ID,
         title=f"Override of the {lowered(provision_name(row.provision))}",
         found=f"{value}{OVERRIDDEN}, {row.reason}",
-        limit=f"{'≤' if allowed.is_maximum else '≥'} {adopted}",
-        clause=rule.clause,
+        limit=f"{'≤' if allowed.is_maximum else '≥'} {adopted}{dagger(rule)}",
+        clause=f"{rule.clause}{dagger(rule)}",
         # One on the safe side needs nobody's consent.
         is_satisfied=not allowed.lowers(row.value, rule.value),
         places=(Place("overrides", index, "value"),),

@@ -110,7 +110,7 @@ def _as_one(group: Sequence[Check]) -> Check:
             # Where the numbers differ those of the worst are printed, and it is named.
             limit = replace(limit, mark=f"{limit.mark} ({worst_one.subject})")
     elif all(isinstance(check.found, Amount) for check in group):
-        found_value = _apart(group)
+        found_value, note = _apart(group)
     else:
         found_value, note = _found(group), ""
     by_remedy = grouped_by(group, lambda check: check.remedy)
@@ -142,13 +142,14 @@ def size(check: Check) -> tuple[float, float]:
     return nan_is_worst(check.ratio), nan_is_worst(limit)
 
 
-def _apart(group: Sequence[Check]) -> Amount:
-    """Return the conservative value of quantities that are not compared with a limit."""
-    amounts = [(check.found, check.subject) for check in group if isinstance(check.found, Amount)]
+def _apart(group: Sequence[Check]) -> tuple[Amount, str]:
+    """Return the conservative value of quantities that are not compared with a limit, its note."""
+    amounts = [(check.found, check) for check in group if isinstance(check.found, Amount)]
     is_capacity = amounts[0][0].rounding is Rounding.DOWN
-    amount, subject = (min if is_capacity else max)(amounts, key=lambda pair: pair[0].value)
-    is_one = all(value == amount for value, _ in amounts)
-    return amount if is_one else replace(amount, mark=f"{amount.mark} ({subject})")
+    amount, shown = (min if is_capacity else max)(amounts, key=lambda pair: pair[0].value)
+    is_one = all((value, check.note) == (amount, shown.note) for value, check in amounts)
+    mark = amount.mark if is_one else f"{amount.mark} ({shown.subject})"
+    return replace(amount, mark=mark), shown.note
 
 
 def _found(group: Sequence[Check]) -> str:

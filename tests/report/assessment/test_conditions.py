@@ -1,6 +1,7 @@
 """Requirements other than the numeric limits, and the three verdicts."""
 
 import datetime as dt
+import math
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from report.assessment.checks import (
     motion_checks,
     seismic_parameters,
 )
-from report.assessment.checks.sentence import found_and_limit
+from report.assessment.checks.sentence import found_and_limit, words
 from report.assessment.design.verdict import Verdict, worst
 from report.text.units import PRESSURES, WEIGHTS
 from solver import design_spectrum, spectrum
@@ -201,6 +202,13 @@ def test_a_fire_pathway_keeps_its_width_after_the_displacement(other, second, n_
     found, of_array = pathway(other, -0.001, **second)
     assert found.verdict is Verdict.NG
     assert of_array is Verdict.NG
+
+
+@pytest.mark.parametrize("left_m", [0.0, -0.06])
+def test_a_fire_pathway_that_arrays_take_whole_has_the_largest_ratio_of_all(left_m):
+    found, _ = pathway("RTU-1", left_m - 36 * INCH)
+    assert (found.verdict, found.ratio) == (Verdict.NG, math.inf)
+    assert words(found) == "fire pathway after displacement A1 to RTU-1 (D/C ∞)"
 
 
 SOURCED = {

@@ -6,16 +6,20 @@ from dataclasses import replace
 
 import pytest
 
-from fixtures import assessments, projects
+from fixtures import altered_projects, assessments, packages, projects
 from fixtures.assessments import FOOT, REVIEW
 from fixtures.pages import page_of
 from fixtures.paths import ROOT
 from fixtures.projects import INCH
 from fixtures.spaces import spaced
 from report.assessment.assess import assess
+from report.assessment.checks.check import OVERRIDE_ID
 from report.assessment.checks.motion_checks import of_records
 from report.assessment.checks.sentence import texts, words
 from report.assessment.design.routes import Route
+from report.assessment.support.evidence import support
+from report.package.html import pages
+from report.pages.checks import first_sheet
 from report.pages.terminal import document, summary
 from report.web.open_project import open_project
 
@@ -297,3 +301,69 @@ def test_the_largest_peak_of_a_prescriptive_array_is_printed_with_one_rounding()
     assert f"{inches:.1f}" != rounded_up
     found = re.findall(r"max\([\d.]+ in \(\d+ mm\), ([\d.]+) in", page_of(package, "method"))
     assert found == [rounded_up]
+
+
+@pytest.mark.quick
+def test_a_design_displacement_has_what_governs_that_of_the_array_named_beside_it():
+    done = assessments.shipped("example")
+    row = page_of(done, "limits").table("All checks").row("Design displacement")
+    assert row["Found"] == "47.4 in (1204 mm) (A3) (analysis)"  # of A1 and A2 the floor governs
+
+
+@pytest.mark.quick
+def test_each_number_of_a_sheet_is_of_the_row_or_table_with_the_check():
+    done = assessments.shipped("example")
+    with packages.undrawn():
+        html = pages(done, support(done))
+    targets = set(re.findall(r'class="at"[^>]* href="#([^"]+)"', html))
+    assert {"limits:roof_capacity", "limits:electrical_slack", "plan:schedule"} <= targets
+    places = re.findall(r' id="([^"]+)"', html)
+    assert len(places) == len(set(places))
+    assert targets <= set(places)
+
+
+@pytest.mark.quick
+def test_conditions_that_change_the_result_come_first_on_the_first_sheet():
+    opened = first_sheet(altered_projects.assessed("friction tests deleted")).conditions
+    priced = [bool(check.otherwise) for check in opened]
+    assert any(priced)
+    assert priced == sorted(priced, reverse=True)
+
+
+@pytest.mark.quick
+def test_too_few_motions_are_stated_once_and_are_no_statistic():
+    done = altered_projects.assessed("two motions")
+    shown = page_of(done, "summary")
+    assert "Arrays: analysis displacement (none: too few motions), prescriptive" in shown
+    assert shown.line("Not satisfied, without effect").count("number of motions") == 1
+    assert page_of(done, "comparison").count("number of motions (2, at least 3†)") == 1
+
+
+@pytest.mark.quick
+def test_checks_without_effect_are_not_among_those_that_are_satisfied():
+    done = altered_projects.assessed("low hazard, no motions")
+    (note,) = done.notes
+    shown = page_of(done, "summary")
+    count = len(done.checks)
+    others = "the other has no effect on the design displacement"
+    assert f"OK {count - 1} of {count} checks are satisfied; {others}." in shown
+    assert "the prescriptive procedure with 5% less friction" in shown.line("Not satisfied")
+    assert not note.is_satisfied
+    done = assessments.shipped("example")
+    assert f"OK All {len(done.checks)} checks are satisfied." in page_of(done, "summary")
+
+
+@pytest.mark.quick
+def test_an_override_shows_whether_the_value_that_it_replaces_is_verified():
+    done = altered_projects.assessed("overrides")
+    pairs = {spaced(check.limit): check.clause for check in done.checks if check.id == OVERRIDE_ID}
+    assert pairs == {"≥ 1": "PV1-2012 Sec. 6", "≤ 36 in†": "PV1-2012 Sec. 5†"}
+
+
+@pytest.mark.quick
+def test_arrays_of_the_same_friction_by_velocity_are_stated_together():
+    law = {"mu": 0.5, "mu_fast": 0.6, "mu_rate_s_per_m": 20.0}
+    arrays = [projects.array(id, 0.5, **law) for id in ("A1", "A2")]
+    done = assessments.package(arrays=arrays, clearances=[])
+    shown = page_of(done, "model")
+    assert "(except A1, A2: 0.50–0.60 (velocity-dependent); see" in spaced(shown)

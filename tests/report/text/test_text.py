@@ -24,7 +24,7 @@ from report.text.amounts import (
 from report.text.command_line import quoted
 from report.text.counts import counted, spelled
 from report.text.csv_text import csv_text
-from report.text.letter_case import capitalized
+from report.text.letter_case import capitalized, lowered
 from report.text.names import name_lines, named, ranged
 from report.text.typed_letters import trimmed
 from report.text.units import Quantity, digits_down, digits_up, measured, no_less, no_more
@@ -75,6 +75,12 @@ def test_letters_of_no_width_are_trimmed_names_have_their_noun_and_sentences_a_c
     assert named(["A9"], "array") == "array A9"
     assert named(["A1", "A2", "A3"], "array") == "arrays A1 to A3"
     assert capitalized("the roof of EX-1") == "The roof of EX-1"
+    whole = ["V/N divided by the limit", "A1 moved west", "SDC D", "Risk Category (I = 1)"]
+    assert [lowered(text) for text in (*whole, "A record", "No runs")] == [
+        *whole,
+        "a record",
+        "no runs",
+    ]
 
 
 def test_a_path_of_windows_has_the_quotes_of_cmd_and_powershell(monkeypatch):
