@@ -20,6 +20,7 @@ SHOWN = 60
 # U+3000, the wide space of East Asian text, is the last that `str.isspace` knows.
 _NO_WIDTH = "\u00ad\u200b\u200c\u200d\u200e\u200f\u2060\u2061\u2062\u2063\u2064\ufeff"
 _UNSEEN = "".join(filter(str.isspace, map(chr, range(0x3001)))) + _NO_WIDTH
+_REMOVE_NO_WIDTH = str.maketrans("", "", _NO_WIDTH)
 _SHOW_NO_WIDTH = str.maketrans(dict.fromkeys(_NO_WIDTH, "?"))
 
 # Cyrillic and Greek letters that look like Latin ones.
@@ -33,6 +34,11 @@ def cut(text: str, maximum: int = SHOWN) -> str:
     # A cell may hold what would move the cursor or turn the direction of the line.
     text = UNPRINTABLE.sub("?", text).replace("\n", " ").translate(_SHOW_NO_WIDTH)
     return text if len(text) <= maximum else f"{text[: maximum - 1]}…"
+
+
+def visible(text: str) -> str:
+    """Return a text without characters of no width."""
+    return text.translate(_REMOVE_NO_WIDTH)
 
 
 def looks(name: str) -> str:

@@ -20,6 +20,7 @@ from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.scan import LAST_COLUMN, LAST_ROW
 from report.project.workbook.entries import Entry, SheetSection
+from report.text.typed_letters import visible
 from solver.errors import InputError, Problem
 
 MAX_COLUMNS = 200
@@ -156,7 +157,7 @@ def label_key(text: object) -> str:
 
 def heading_parts(text: object) -> tuple[str, str]:
     """Return a heading's label and the unit in its brackets."""
-    match = _HEADING.fullmatch(" ".join(str(text or "").split()))
+    match = _HEADING.fullmatch(" ".join(visible(str(text or "")).split()))
     return (match[1], (match[2] or "").strip()) if match else (str(text), "")
 
 

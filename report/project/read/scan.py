@@ -165,7 +165,8 @@ class Scan(ContentHandler):
         text = "".join(self._text)
         if _FETCHES.search(_QUOTED.sub("", text)):
             self.outside.append(f"={text}")
-        if element != "f":
+        # In the part of a chart the elements of this name are references of its series.
+        if element != "f" or not self._column:
             return
         self._last_formula = self._row, self._column
         cell = f"{get_column_letter(self._column)}{self._row}"

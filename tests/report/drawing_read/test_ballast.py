@@ -38,6 +38,10 @@ pytestmark = pytest.mark.quick
             "line 2: 4 values, 3 headings; enter a heading for each column, and decimal points or"
             " semicolons"
         ]),
+        ("x,y,blocks,note\n1,2,3,a\n1,2,4,\n1.0,2,3,b\n1,2,0,\n1,2,0,\n1,2,3,c\n", [
+            f"line {line} is equal to line 2; delete one, or enter all blocks at one location on"
+            " one line" for line in (4, 7)
+        ]),
         (b"x,y,blocks\n\xff\n", ["not a CSV file in UTF-8 or UTF-16; save it as one"]),
         ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; combine "
                                                "neighboring blocks"]),

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from openpyxl import load_workbook
+from openpyxl.chart import BarChart, Reference
 from openpyxl.utils import coordinate_to_tuple, get_column_letter, range_boundaries
 from openpyxl.worksheet.table import Table
 
@@ -321,6 +322,28 @@ def test_a_workbook_saved_by_libreoffice_reads_the_same_and_shows_its_formulas(t
 def test_characters_of_no_width_around_a_number_or_a_choice_do_not_count(tmp_path, name, text):
     path = type_into(make(tmp_path), {f"Arrays/A1/{name}": text})
     assert same(read_workbook(path).input, project())
+
+
+def test_characters_of_no_width_in_a_heading_or_a_label_do_not_count(tmp_path):
+    path = make(tmp_path)
+
+    def change(book):
+        cell(book, "Arrays/heading/CG height").value = "CG\u200b height\ufeff [in\u200b]"
+        cell(book, "Arrays/heading/Slope").value = "\u2060Slope"
+
+    assert same(read_workbook(edit(path, change)).input, project())
+
+
+@pytest.mark.parametrize("is_own_sheet", [False, True])
+def test_a_workbook_with_a_chart_reads_the_same(tmp_path, is_own_sheet):
+    def with_chart(book):
+        chart, arrays = BarChart(), book["Arrays"]
+        chart.add_data(Reference(arrays, min_col=3, min_row=7, max_row=9), titles_from_data=True)
+        (book.create_chartsheet("Chart1") if is_own_sheet else arrays).add_chart(chart)
+
+    path = edit(make(tmp_path), with_chart)
+    assert same(read_workbook(path).input, project())
+    assert findings_of(path) == []
 
 
 def copied(book, title):
