@@ -50,7 +50,8 @@ async function watch(api) {
   let values = {};
   const scene = () => ({ array: array.chosen(), motion: motion.chosen(), values });
   replace(document.querySelector("#picked"), array.field, motion.field);
-  const shown = createView(view, scene(), (request) => api.computed("slide", request), build, announce);
+  const shown = createView(view, async () => ({ build }), (request) => api.computed("slide", request), announce);
+  update();
   document.querySelector("#other-values").hidden = !mountValues(document.querySelector("#sliders"), api, results, (moved) => {
     values = { ...moved };
     update();

@@ -3,7 +3,7 @@
 import { createApi } from "./api.js";
 import { changes, fromFragment, toAddress } from "./changes.js";
 import { mountHeadline } from "./headline.js";
-import { named, showErrors, showProject, showSteps, showTables } from "./heading.js";
+import { named, showErrors, showProject, showSteps, showTables, typedCells } from "./heading.js";
 import { button, html, parsed, replace } from "./make.js";
 import { mountDrawing, mountMotions } from "./offers.js";
 import { mountTakeaway } from "./package.js";
@@ -12,11 +12,10 @@ import { mountResults } from "./results.js";
 import { save, saveDrawing } from "./saving.js";
 import { createSession, onChange } from "./session.js";
 import { mountSliders } from "./sliders.js";
-import { mountTabs } from "./tabs.js";
 import { mountTerms } from "./terms.js";
 import { createTurns } from "./turns.js";
 import { besideWorkbook, mountUpload } from "./upload.js";
-import { createViews } from "./views.js";
+import { mountTabs, mountViews } from "./views.js";
 
 const part = (id) => document.getElementById(id);
 const announce = (sentence) => {
@@ -30,12 +29,11 @@ const { state } = session;
 let dropped = null; // the files of the last upload
 let awaited = null; // the address of a project that is not open
 let drawControls = null; // of the project that is open
-let typed = {}; // into the fields of a workbook with errors, by cell
+let sent = {}; // of what was typed into the fields of a workbook, by cell
 let isEdited = false; // whether that changes the project that is open
 let faulty = []; // what these cells had, such as the paths of records
 
 const plan = mountPlan(part("plan-drawing"), session, { said: part("plan-said"), zooms: ["zoom-in", "zoom-out", "zoom-fit"].map(part) });
-const views = createViews(api);
 const turns = createTurns(api.verdict, (id, found, others) => session.set({ turned: { ...state.turned, [id]: found && { ...found, others } } }));
 const takeaway = mountTakeaway(
   { make: part("make-package"), workbook: part("save-workbook"), copy: part("copy-link"), status: part("package-status"), told: part("taken") },
@@ -48,7 +46,8 @@ const offerDrawing = mountDrawing(part("drawing"), api, { open: opening, filled:
 mountHeadline(part("verdict"), session, announce);
 mountResults({ arrays: part("arrays"), bars: part("bars"), clearances: part("clearances") }, session, plan.pick);
 mountTerms(part("tip"));
-mountTabs(part("tabs"), (panel) => views.open(panel));
+mountTabs(part("tabs"), session);
+mountViews(session, api);
 mountUpload({ zone: part("drop"), files: part("files"), folder: part("folder") }, { begin: showBusy, take, fail });
 session.draws(({ phase, shows }) => Object.assign(document.body.dataset, { phase, values: shows }));
 session.draws(onChange(["project"], showControls));
@@ -59,7 +58,6 @@ session.draws(onChange(["values"], ({ values, project }) => {
   part("changed").textContent = project ? `With ${changes(values, project)}` : "";
   part("changed").title = part("changed").textContent;
 }));
-session.draws(onChange(["phase", "values", "array", "motion"], showViews));
 session.draws(onChange(["array", "motion"], ({ array, motion }) => {
   part("array").value = array;
   part("motion").value = motion;
@@ -150,30 +148,22 @@ async function startNew() {
 
 // Show the tables of the project that is open, and what is typed into them then.
 async function editTables() {
-  typed = showTables((await api.tables()).html);
-  part("save-filled").hidden = true;
-  isEdited = true;
+  showTables((await api.tables()).html);
+  [part("save-filled").hidden, isEdited, sent] = [true, true, {}];
 }
 
-// Check the workbook with what is typed in it.
+// Check the workbook with what is typed in it, and was before: in a zip the workbook stays as it was. With
+// errors, a change of what is open is still one.
 async function fillCells() {
-  const before = typed;
-  if (isEdited) {
-    await changing(() => api.edit(before), { words: "Checking the workbook …" });
-    // With errors it is still a change of what is open.
-    if (part("workspace").hidden) [isEdited, typed] = [true, Object.assign(typed, before, typed)];
-    return;
-  }
+  const [cells, wasEdited] = [{ ...sent, ...typedCells() }, isEdited];
   let next = null;
-  await opening(
-    async () => {
-      next = await api.fillCells(dropped, typed);
-      if (next) putBack(next.filled); // before it is shown, and may be checked again
-      return next;
-    },
-    { words: "Checking the workbook …" },
-  );
-  if (next) Object.assign(typed, { ...before, ...typed }); // in a zip the workbook stays as it was
+  const check = async () => {
+    next = await (isEdited ? api.edit(cells) : api.fillCells(dropped, cells));
+    if (next?.filled) putBack(next.filled); // before it is shown, and may be checked again
+    return next;
+  };
+  await (isEdited ? changing : opening)(check, { words: "Checking the workbook …" });
+  if (next) [isEdited, sent] = [wasEdited, cells];
 }
 
 async function saveFilled() {
@@ -221,8 +211,8 @@ function offer(next) {
 function open(next, valuesOf) {
   offer(next);
   if (next.problems.length > 0) {
-    typed = showErrors(next, state);
-    [part("save-filled").hidden, isEdited] = [false, false];
+    showErrors(next, state);
+    [part("save-filled").hidden, isEdited, sent] = [false, false, {}];
     faulty = next.problems.flatMap(({ row }) => (row ? [row.cells[row.at]] : []));
     return;
   }
@@ -259,11 +249,6 @@ function enterAddress({ project, values, phase }) {
   else if (next !== location.pathname + location.hash) history.pushState({ depth: depth + 1 }, "", next);
   part("undo").disabled = history.state.depth < 1;
   part("reset-all").disabled = location.hash === "";
-}
-
-function showViews({ phase, values, array, motion }) {
-  if (phase === "rest") views.update({ values, array, motion });
-  else views.moving();
 }
 
 function findTurns({ phase, answer, project, values }) {

@@ -2,54 +2,57 @@
 
 import { html, note, points, replace, set, svg } from "./make.js";
 import { number, reading } from "./reading.js";
-import { onKeys } from "./view-frame.js";
-import { cross, frame, linesAcross, linesUp, onPointer, scale, setSize, textsAcross, textsUp, ticks, within } from "./view-parts.js";
+import { axisAcross, axisUp, onKeys, percent, within } from "./view-parts.js";
 
-const HEIGHT = 370;
-const MARGIN = { left: 46, right: 16, top: 10, bottom: 42 };
 const EDGE = 0.03; // of the range, around the outermost points
 const FINE = 0.1; // of a cell
 const LABEL = 13; // height of a label
 const AIR = 3; // between labels
-const TICK = 4;
 const DOT = 13; // width of an array's dot
+const [WIDE, TALL] = [300, 318]; // of a narrow plot, TALL as in views.css: labels that are clear of each other there are so in wider ones
 
 /** Draw the contours in an element. */
 export function build(element, data) {
-  const { mus, slopes_deg: slopes } = data;
-  const cursor = svg("path", { class: "cursor", visibility: "hidden" });
-  const plot = svg("svg", { class: "contour", tabindex: 0, role: "application", "aria-label": data.texts.title, "aria-describedby": "contour-keys" });
+  const { mus, slopes_deg: slopes, here } = data;
+  const [across, up] = [roomy(mus), roomy(slopes)];
+  const place = (mu, slope) => [percent(mu, across), 100 - percent(slope, up)];
+  const cursor = [svg("line", { class: "cursor", y2: "100%" }), svg("line", { class: "cursor", x2: "100%" })];
+  const plot = svg(
+    "svg",
+    { class: "plot contour", tabindex: 0, role: "application", "aria-label": data.texts.title, "aria-describedby": "contour-keys" },
+    axisAcross(across, 7),
+    svg("svg", { y: "100%" }, svg("text", { class: "label middle-of", x: "50%", y: 36 }, "Friction coefficient μ at low velocity")),
+    axisUp(up, 6),
+    svg("svg", { y: "50%" }, svg("text", { class: "label middle-of", transform: "translate(-33 0) rotate(-90)" }, "Slope [deg]")),
+    crosses(data, place),
+    lines(data, place),
+    cursor,
+    data.dots.map((dot) => arrayDot(dot, place)),
+  );
   const where = html("output", { class: "numbers", role: "status" });
-  let x = null;
-  let y = null;
-  let at = { mu: data.here.mu, slope: data.here.slope_deg };
+  let at = {};
 
   function read(mu, slope) {
     at = { mu: within(mu, mus[0], mus.at(-1)), slope: within(slope, slopes[0], slopes.at(-1)) };
-    set(cursor, { d: `M${x(at.mu)} ${MARGIN.top}V${HEIGHT - MARGIN.bottom}M${MARGIN.left} ${y(at.slope)}H${x.ends[1]}`, visibility: "visible" });
+    const [x, y] = place(at.mu, at.slope).map((part) => `${part}%`);
+    set(cursor[0], { x1: x, x2: x });
+    set(cursor[1], { y1: y, y2: y });
     where.textContent = words(data, at);
   }
 
-  onPointer(plot, ([across, up]) => read(x.inverse(across), y.inverse(up)));
+  plot.addEventListener("pointermove", ({ clientX, clientY }) => {
+    const { left, bottom, width, height } = plot.getBoundingClientRect();
+    read(valueAt((clientX - left) / width, across), valueAt((bottom - clientY) / height, up));
+  });
   plot.addEventListener("pointerdown", () => plot.focus());
-  const go = (right, up) => ({ shiftKey }) => read(moved(mus, at.mu, right, shiftKey), moved(slopes, at.slope, up, shiftKey));
+  const go = (right, above) => ({ shiftKey }) => read(moved(mus, at.mu, right, shiftKey), moved(slopes, at.slope, above, shiftKey));
   onKeys(plot, {
     ArrowLeft: go(-1, 0),
     ArrowRight: go(1, 0),
     ArrowDown: go(0, -1),
     ArrowUp: go(0, 1),
-    Home: () => read(data.here.mu, data.here.slope_deg),
+    Home: () => read(here.mu, here.slope_deg),
   });
-
-  function resize(wide) {
-    setSize(plot, wide, HEIGHT);
-    x = scale(roomy(mus), [MARGIN.left, wide - MARGIN.right]);
-    y = scale(roomy(slopes), [HEIGHT - MARGIN.bottom, MARGIN.top]);
-    const named = data.dots.map((dot) => ({ ...dot, at: [x(dot.mu), y(dot.slope_deg)] }));
-    replace(plot, axes(data, x, y), svg("g", { class: "computed" }, crosses(data, x, y)), lines(data, x, y, named), cursor, named.map(arrayDot));
-    read(at.mu, at.slope);
-  }
-
   replace(
     element,
     html("h3", { class: "view-title" }, data.texts.title),
@@ -58,7 +61,7 @@ export function build(element, data) {
     html("p", { class: "note", id: "contour-keys" }, "Point, or use the arrow keys: to the next computed value, with Shift a tenth of that, Home back to the array."),
     note(data.texts.notes.join(" ")),
   );
-  return { resize };
+  read(here.mu, here.slope_deg);
 }
 
 function words({ mus, slopes_deg: slopes, prd_m: prd, least_m: least, units }, { mu, slope }) {
@@ -89,9 +92,12 @@ export function surfaceAt(xs, ys, values, x, y, least) {
 }
 
 function cell(axis, value) {
-  let k = 0;
-  while (k + 2 < axis.length && axis[k + 1] <= value) k += 1;
+  const k = Math.max(axis.findLastIndex((one, at) => one <= value && at < axis.length - 1), 0);
   return [k, (value - axis[k]) / (axis[k + 1] - axis[k])];
+}
+
+function valueAt(share, [low, high]) {
+  return low + share * (high - low);
 }
 
 // The next computed value of an axis, or a tenth of the way to it.
@@ -99,8 +105,7 @@ function moved(axis, value, way, isFine) {
   if (way === 0) return value;
   if (isFine) return value + (way * FINE * (axis.at(-1) - axis[0])) / (axis.length - 1);
   const beyond = axis.filter((one) => way * (one - value) > 1e-9);
-  if (beyond.length === 0) return value;
-  return way > 0 ? beyond[0] : beyond.at(-1);
+  return (way > 0 ? beyond[0] : beyond.at(-1)) ?? value;
 }
 
 function roomy(axis) {
@@ -108,77 +113,59 @@ function roomy(axis) {
   return [axis[0] - room, axis.at(-1) + room];
 }
 
-function axes({ mus, slopes_deg: slopes }, x, y) {
-  const [[left, right], [foot, top]] = [x.ends, y.ends];
-  const across = ticks(...roomy(mus), (right + MARGIN.right) / 90);
-  const up = ticks(...roomy(slopes), 6);
-  return svg(
-    "g",
-    { class: "axes" },
-    frame(x, y),
-    linesAcross(across, x, [foot, foot + TICK]),
-    textsAcross(across, x, foot + 17),
-    linesUp(up, [left - TICK, left], y),
-    textsUp(up, left - 7, y),
-    svg("text", { class: "label middle-of", x: (left + right) / 2, y: HEIGHT - 6 }, "Friction coefficient μ at low velocity"),
-    svg("text", { class: "label middle-of", transform: `translate(13 ${(top + foot) / 2}) rotate(-90)` }, "Slope [deg]"),
-  );
+function crosses({ mus, slopes_deg: slopes, prd_m: prd }, place) {
+  const at = (mu, slope, value) =>
+    svg("svg", placed(place(mu, slope), "x", "y"), svg("path", value === null ? { class: "lost", d: "M-4 -4l8 8m0 -8l-8 8" } : { d: "M-3 0h6M0 -3v6" }));
+  return svg("g", { class: "computed" }, slopes.map((slope, row) => mus.map((mu, column) => at(mu, slope, prd[row][column]))));
 }
 
-function crosses({ mus, slopes_deg: slopes, prd_m: prd }, x, y) {
-  return slopes.flatMap((slope, row) =>
-    mus.map((mu, column) => {
-      const [a, b] = [x(mu), y(slope)];
-      const isLost = prd[row][column] === null;
-      return svg("path", isLost ? { class: "lost", d: `M${a - 4} ${b - 4}l8 8m0 -8l-8 8` } : { d: cross([a, b], 3) });
-    }),
-  );
-}
-
-// Each level with its value on its longest line, where no other label stands.
-function lines({ levels }, x, y, named) {
-  const inside = { x: MARGIN.left, y: MARGIN.top, wide: x.ends[1] - MARGIN.left, tall: HEIGHT - MARGIN.bottom - MARGIN.top };
-  const taken = named.flatMap(({ at: [a, b], name }) => [labelBox([a, b], DOT), labelBox([a + 9 + widthOf(name) / 2, b - 11], widthOf(name))]);
-  return levels.map(({ lines: contours, text, is_major: isMajor }) => {
-    const placed = contours.map((line) => line.map(([mu, slope]) => [x(mu), y(slope)]));
-    const longest = placed.toSorted((a, b) => b.length - a.length)[0] ?? [];
-    const place = fromMiddle(longest).find((point) => isFree(labelBox(point, widthOf(text)), taken, inside));
-    if (place) taken.push(labelBox(place, widthOf(text)));
-    return [
-      placed.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: points(line) })),
-      place ? svg("text", { class: "label middle-of on-line", x: place[0], y: place[1] + 4 }, text) : null,
-    ];
+// Each level with its value on its longest line, near the middle, where no other label stands.
+function lines({ levels, dots }, place) {
+  const taken = dots.flatMap(({ mu, slope_deg: slope, name }) => {
+    const { x, y } = inPixels(place(mu, slope));
+    const wide = widthOf(name);
+    return [{ x, y, wide: DOT }, { x: x + 9 + wide / 2, y: y - 11, wide }];
   });
+  const labels = [];
+  const curves = levels.flatMap(({ lines: contours, text, is_major: isMajor }) => {
+    const all = contours.map((line) => line.map(([mu, slope]) => place(mu, slope)));
+    const longest = all.toSorted((a, b) => b.length - a.length)[0] ?? [];
+    const spots = longest.map((point, k) => ({ ...inPixels(point), wide: widthOf(text), point, off: Math.abs(k - (longest.length - 1) / 2) }));
+    const [spot] = spots.filter((one) => isFree(one, taken)).toSorted((a, b) => a.off - b.off);
+    if (spot) {
+      taken.push(spot);
+      labels.push(svg("text", { class: "label middle-of on-line", ...placed(spot.point, "x", "y"), dy: 4 }, text));
+    }
+    return all.map((line) => svg("polyline", { class: `isoline${isMajor ? " is-major" : ""}`, points: points(line) }));
+  });
+  return [svg("svg", { viewBox: "0 0 100 100", preserveAspectRatio: "none" }, curves), labels];
 }
 
-// The points of a line, those in its middle first.
-function fromMiddle(line) {
-  const middle = (line.length - 1) / 2;
-  const order = [...line.keys()].toSorted((i, j) => Math.abs(i - middle) - Math.abs(j - middle));
-  return order.map((k) => line[k]);
+// Whether a label is inside the plot and clear of others, by their middles and widths.
+function isFree({ x, y, wide }, taken) {
+  const isInside = Math.abs(x - WIDE / 2) <= (WIDE - wide) / 2 && Math.abs(y - TALL / 2) <= (TALL - LABEL) / 2;
+  return isInside && taken.every((one) => Math.abs(x - one.x) >= (wide + one.wide) / 2 + AIR || Math.abs(y - one.y) >= LABEL + AIR);
 }
 
-function labelBox([x, y], wide) {
-  return { x: x - wide / 2, y: y - LABEL / 2, wide, tall: LABEL };
-}
-
-// Whether a box is inside another and away from all others.
-function isFree({ x, y, wide, tall }, taken, inside) {
-  const isInside = x >= inside.x && y >= inside.y && x + wide <= inside.x + inside.wide && y + tall <= inside.y + inside.tall;
-  const touches = (other) => x < other.x + other.wide + AIR && other.x < x + wide + AIR && y < other.y + other.tall + AIR && other.y < y + tall + AIR;
-  return isInside && !taken.some(touches);
-}
-
-// Of a label, about.
+// The width of a label, about.
 function widthOf(text) {
   return text.length * LABEL * 0.5 + 3;
 }
 
-function arrayDot({ at: [a, b], name, is_shown: isShown }) {
+function inPixels([x, y]) {
+  return { x: (x * WIDE) / 100, y: (y * TALL) / 100 };
+}
+
+function placed([x, y], across, up) {
+  return { [across]: `${x}%`, [up]: `${y}%` };
+}
+
+function arrayDot({ mu, slope_deg: slope, name, is_shown: isShown }, place) {
+  const at = place(mu, slope);
   return svg(
     "g",
     { class: "array-dot" },
-    svg("circle", { cx: a, cy: b, r: isShown ? 6 : 4.5 }),
-    svg("text", { class: `on-line ${isShown ? "strong" : "label"}`, x: a + 9, y: b - 7 }, name),
+    svg("circle", { ...placed(at, "cx", "cy"), r: isShown ? 6 : 4.5 }),
+    svg("text", { class: `on-line ${isShown ? "strong" : "label"}`, ...placed(at, "x", "y"), dx: 9, dy: -7 }, name),
   );
 }

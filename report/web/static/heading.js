@@ -24,33 +24,37 @@ export function showSteps({ lacks }) {
   for (const name of Object.keys(NEXT)) part(`step-${name}`).ariaCurrent = name === step ? "step" : null;
 }
 
-// A workbook with errors is not opened: what was open stays so. Returns what is typed into its fields.
+// A workbook with errors is not opened: what was open stays so.
 export function showErrors({ problems, html: drawn, is_alone: isAlone, lacks }, { project }) {
   const isLost = isAlone && problems.some(({ sheet }) => sheet === "Motions"); // a workbook, but no records
   const isNew = lacks.includes("arrays");
   const title = isLost ? "The records were not uploaded" : isNew ? "What the workbook needs first" : "Errors in the workbook";
-  const typed = showFields(drawn, title, isLost ? ALONE : CORRECT);
+  showFields(drawn, title, isLost ? ALONE : CORRECT);
   part("back").hidden = !project;
   part("back").textContent = `Back to ${project?.name}`;
   for (const id of ["workspace", "outline", "welcome"]) part(id).hidden = true;
   named(isNew ? "A new project" : "This workbook has errors");
-  return typed;
 }
 
-/** Show the tables of the project that is open, to be changed; returns what is typed. */
+/** Show the tables of the project that is open, to be changed. */
 export function showTables(drawn) {
   part("workspace").hidden = true;
   part("back").hidden = false;
   part("back").textContent = "Back";
-  return showFields(drawn, "Edit the workbook", EDIT);
+  showFields(drawn, "Edit the workbook", EDIT);
 }
 
-let typed = {}; // by cell, since the fields were drawn
-part("problems").addEventListener("change", ({ target }) => {
-  typed[target.dataset.at] = target.value;
-});
+/** Return what is typed into the fields, by cell. */
+export function typedCells() {
+  const typed = [...part("problems").querySelectorAll("[data-at]")].filter((field) => field.value !== valueBefore(field));
+  return Object.fromEntries(typed.map(({ dataset, value }) => [dataset.at, value]));
+}
 
-// Errors and tables with their fields; returns what is typed into these, by cell.
+function valueBefore({ defaultValue, options }) {
+  return defaultValue ?? ([...options].find((one) => one.defaultSelected) ?? options[0]).value;
+}
+
+// Errors and tables with their fields.
 function showFields({ problems = "", fields }, title, advice) {
   const element = part("problems");
   const [heading, paragraph] = ["h2", "p"].map((name) => element.querySelector(name));
@@ -58,11 +62,9 @@ function showFields({ problems = "", fields }, title, advice) {
   paragraph.textContent = advice;
   replace(element.querySelector(".problems"), ...parsed("table", problems).childNodes);
   replace(element.querySelector(".fields"), ...parsed("div", fields).childNodes);
-  typed = {};
   part("live").textContent = ""; // it has the verdict of what was open
   element.hidden = false;
   heading.focus();
-  return typed;
 }
 
 /** Show the project that is open in place of errors. */

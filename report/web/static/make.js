@@ -57,9 +57,9 @@ export function set(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }
 
-/** Return points as the attribute of a polygon, to a tenth of a pixel. */
+/** Return points as the attribute of a polygon. */
 export function points(all) {
-  return all.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(" ");
+  return all.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
 }
 
 function filled(element, attributes, children) {

@@ -1,7 +1,7 @@
 // Offers what a workbook lacks: to read its plan from a DXF beside it, and to make motions for its site.
 
-import { button, html, note, parsed, replace, words } from "./make.js";
-import { follow, saveFile, say, showProgress } from "./package.js";
+import { button, html, note, parsed, replace, update, words } from "./make.js";
+import { follow, progressOf, saveFile, say } from "./package.js";
 import { save } from "./saving.js";
 
 const PROJECT = "project.zip";
@@ -42,14 +42,14 @@ export function mountDrawing(element, api, { open, filled, fail }) {
 export function mountMotions(element, api, { open, fail }) {
   let turn = 0; // of what is shown; another project takes the next
   let making = ""; // id of the suite that is being made
+  const cancel = () => api.cancelPackage(making).catch(fail);
+  const show = (told) => told.is_over || update(element, html("div", {}, progressOf(told, cancel)));
 
   async function make(files) {
     turn += 1;
     const mine = turn;
     const begun = await api.startMotions(files);
     making = begun.id;
-    const cancel = () => api.cancelPackage(begun.id).catch(fail);
-    const show = (told) => told.is_over || showProgress(element, api, told, cancel);
     const isWanted = () => mine === turn;
     const made = await follow(api, begun, { isWanted, show }).catch((error) => ({ words: error.message }));
     if (!isWanted()) return;
@@ -73,12 +73,11 @@ export function mountMotions(element, api, { open, fail }) {
   /** Offer motions for the files of a project; none where there is nothing to offer. */
   function offer(files) {
     turn += 1;
-    if (making) api.cancelPackage(making).catch(fail);
+    if (making) cancel();
     making = "";
     element.hidden = !files;
     if (!files) return;
-    const label = "No motions? Make seven for this site";
-    replace(element, button(label, () => make(files).catch(fail)), html("p", { class: "note" }, words(BASIS)));
+    replace(element, button("No motions? Make seven for this site", () => make(files).catch(fail)), note(words(BASIS)));
   }
 
   return { offer };

@@ -1,10 +1,11 @@
 // What the user takes away: a link, the workbook, and the package, from progress to its files.
 
 import { isSame } from "./changes.js";
-import { button, html, note, replace } from "./make.js";
+import { button, html, note, replace, update } from "./make.js";
 import { save } from "./saving.js";
 
 const POLL_MS = 500;
+const COMPLETE = "The package is complete; its files can be saved.";
 const COPIED = "The link is copied. It opens these values once, in another tab, as long as this project is open in roofslip serve.";
 
 /**
@@ -20,12 +21,22 @@ export function mountTakeaway({ make, workbook, copy, status, told: saved }, api
   let turn = 0; // of the package that is shown; another one, or another project, takes the next
   let shown = null; // what the server told of it last
 
-  // Beside a package, what it is made with where the page has other values; no words where not.
-  function compare() {
-    const line = status.querySelector(".made-with");
-    if (!shown || !line) return;
-    const when = status.querySelector(".made") ? "Made" : "Started";
-    line.textContent = isSame(shown.values, values()) ? "" : `${when} before the last change of values, with ${words(shown.values)}.`;
+  // Draw the package, and beside it what it is made with where the page has other values.
+  function draw() {
+    const when = shown?.is_over ? "Made" : "Started";
+    const isOther = shown && !isSame(shown.values, values());
+    const madeWith = html("em", { class: "made-with" }, isOther && `${when} before the last change of values, with ${words(shown.values)}.`);
+    update(status, html("div", {}, shown && partsOf(shown, madeWith)));
+  }
+
+  function partsOf(told, madeWith) {
+    if (!told.is_over) return progressOf(told, cancel, madeWith);
+    if (told.state !== "done") return note(told.words);
+    // A button that is the same stays, also for another package.
+    const files = told.files.map((name) =>
+      button(name.endsWith(".pdf") ? "Calc package" : name, guarded(() => saveFile(api, shown.id, name)), { class: "link" }),
+    );
+    return html("p", { class: "made" }, files, madeWith);
   }
 
   // Show a package until it is over, from what `begin` promises that the server tells of it.
@@ -35,42 +46,35 @@ export function mountTakeaway({ make, workbook, copy, status, told: saved }, api
     const isWanted = () => mine === turn;
     // Who pressed a button that goes or is disabled gets the next one; a page that is loaded does not.
     const keepsFocus = document.activeElement === make || status.contains(document.activeElement);
+    const show = (told) => {
+      shown = told;
+      make.disabled = Boolean(told && !told.is_over);
+      draw();
+      if (told?.is_over) api.announce(told.state === "done" ? COMPLETE : told.words);
+      if (keepsFocus && hasLostFocus()) (status.querySelector("button") ?? make).focus();
+    };
     make.disabled = true;
     try {
-      await follow(api, await begin(), { isWanted, show: (told) => show(told, keepsFocus) });
+      await follow(api, await begin(), { isWanted, show });
     } catch (error) {
       if (!isWanted()) return;
-      if (status.querySelector("progress")) offer(); // no bar that nothing moves
+      show(shown?.is_over ? shown : null); // no bar that nothing moves
       throw error;
-    } finally {
-      if (isWanted()) make.disabled = false;
     }
-    if (keepsFocus && hasLostFocus()) make.focus();
-  }
-
-  function show(told, keepsFocus) {
-    shown = told;
-    showPackage(status, api, told, { cancel, keepsFocus, guarded });
-    compare();
   }
 
   const cancel = guarded(() => track(() => api.cancelPackage(shown.id)));
-
-  // Nothing is made, and nothing can be saved.
-  function offer() {
-    shown = null;
-    replace(status);
-  }
 
   workbook.addEventListener("click", guarded(() => saveWorkbook(saved, api, values())));
   copy.addEventListener("click", guarded(() => copyLink(saved, api)));
   make.addEventListener("click", guarded(() => track(() => api.startPackage(values()))));
   return {
-    compare,
+    compare: draw,
     open(told) {
       turn += 1;
       make.disabled = false;
-      offer();
+      shown = null;
+      draw();
       if (told) guarded(() => track(async () => told))();
     },
   };
@@ -82,10 +86,15 @@ export function say(status, api, sentence) {
   api.announce(sentence);
 }
 
-/** Show a package, from what the server told of it, until it is over, which is returned, or no longer wanted. */
+/**
+ * Show a package, from what the server told of it, until it is over, which is returned, or no longer wanted; what
+ * it does is said to a screen reader.
+ */
 export async function follow(api, told, { isWanted, show }) {
-  let latest = told;
+  let [latest, spoken] = [told, ""];
   while (isWanted()) {
+    if (!latest.is_over && latest.words !== spoken) api.announce(latest.words);
+    spoken = latest.words;
     show(latest);
     if (latest.is_over) break;
     await new Promise((done) => {
@@ -96,51 +105,15 @@ export async function follow(api, told, { isWanted, show }) {
   return latest;
 }
 
-// How far a package is, its files, or what became of it.
-function showPackage(status, api, told, { cancel, keepsFocus, guarded }) {
-  if (!told.is_over) {
-    showProgress(status, api, told, cancel);
-    if (keepsFocus && hasLostFocus()) status.querySelector("button").focus();
-  } else if (told.state === "done") {
-    showFiles(status, api, told, guarded);
-    if (keepsFocus && hasLostFocus()) status.querySelector("button").focus();
-    api.announce("The package is complete; its files can be saved.");
-  } else {
-    say(status, api, told.words);
-  }
-}
-
-/** Show how far a package is; the elements stay while it is made, so that Cancel keeps the focus. */
-export function showProgress(status, api, { words, part }, cancel) {
-  if (!status.querySelector("progress")) {
-    replace(
-      status,
-      html("label", {}, html("span", { class: "stage" }), html("progress", { max: 1 }), madeWith()),
-      button("Cancel", cancel),
-    );
-  }
-  const shown = status.querySelector(".stage");
-  if (shown.textContent !== words) {
-    shown.textContent = words;
-    api.announce(words);
-  }
-  const bar = status.querySelector("progress");
-  bar.value = part;
-}
-
-function showFiles(status, api, { id, files }, guarded) {
-  const made = files.map((name) => button(name.endsWith(".pdf") ? "Calc package" : name, guarded(() => saveFile(api, id, name)), { class: "link" }));
-  replace(status, html("p", { class: "made" }, made, madeWith()));
+/** Return how far a package is, to be updated, so that Cancel keeps the focus. */
+export function progressOf({ words, part }, cancel, ...beside) {
+  return [html("label", {}, html("span", { class: "stage" }, words), html("progress", { max: 1, value: part }), beside), button("Cancel", cancel)];
 }
 
 /** Save a file of a package. */
 export async function saveFile(api, id, name) {
   const { blob } = await api.file(id, name);
   save(blob, name);
-}
-
-function madeWith() {
-  return html("em", { class: "made-with" });
 }
 
 // Whether what had the focus is disabled or gone.
@@ -161,12 +134,9 @@ async function copyLink(status, api) {
     await navigator.clipboard.writeText(link);
     say(status, api, COPIED);
   } catch {
-    showLink(status, link); // no clipboard: not a secure context, or not allowed
+    // No clipboard: not a secure context, or not allowed.
+    const field = html("input", { type: "text", readonly: true, value: link, "aria-label": "Link that opens these values" });
+    replace(status, field, note("Copy this link; it is good once."));
+    field.select();
   }
-}
-
-function showLink(status, link) {
-  const field = html("input", { type: "text", readonly: true, value: link, "aria-label": "Link that opens these values" });
-  replace(status, field, note("Copy this link; it is good once."));
-  field.select();
 }

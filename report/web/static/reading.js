@@ -23,11 +23,6 @@ export function reading(value, [first, ...others]) {
   return `${measured(value, first)} (${others.map((unit) => measured(value, unit)).join(", ")})`;
 }
 
-/** Return a time of a run in seconds. */
-export function seconds(time) {
-  return `${number(time, 2)} s`;
-}
-
 /** Return a round number beside a tick, with the decimals that its step needs. */
 export function tickText(value, step) {
   return number(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));

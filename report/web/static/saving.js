@@ -2,7 +2,7 @@
 
 import { html, set, svg } from "./make.js";
 
-const LOOK = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "paint-order", "opacity", "font-size", "font-weight", "font-style", "text-anchor", "marker-end", "visibility"];
+const LOOK = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "vector-effect", "overflow", "paint-order", "opacity", "font-size", "font-weight", "font-style", "text-anchor", "marker-end", "visibility"];
 const SHARPER = 2; // pixels of a PNG in one of the page
 const BUSY = '[aria-busy="true"]';
 const NOT_DRAWN = "button, select, input, label, .toolbar, .player, .plan-head, .visually-hidden, [id$=-keys]";
@@ -22,7 +22,7 @@ function drawing(panel) {
   const { x, y, width, height } = panel.getBoundingClientRect();
   const all = svg("svg", { xmlns: "http://www.w3.org/2000/svg", width, height, "font-family": "Source Sans 3, sans-serif" });
   all.append(svg("rect", { width, height, fill: getComputedStyle(document.documentElement).backgroundColor }));
-  for (const one of panel.querySelectorAll("svg")) {
+  for (const one of panel.querySelectorAll("svg:not(svg svg)")) {
     const box = one.getBoundingClientRect();
     const copy = one.cloneNode(true);
     const [from, to] = [one, copy].map((each) => [each, ...each.querySelectorAll("*")]);
@@ -62,13 +62,11 @@ async function painted(vector, drawn) {
   const image = new Image();
   image.src = URL.createObjectURL(vector);
   await image.decode();
-  const size = (name) => SHARPER * Number(drawn.getAttribute(name));
-  const canvas = html("canvas", { width: size("width"), height: size("height") });
-  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  const [wide, tall] = ["width", "height"].map((name) => SHARPER * Number(drawn.getAttribute(name)));
+  const canvas = new OffscreenCanvas(wide, tall);
+  canvas.getContext("2d").drawImage(image, 0, 0, wide, tall);
   URL.revokeObjectURL(image.src);
-  return new Promise((done) => {
-    canvas.toBlob(done);
-  });
+  return canvas.convertToBlob();
 }
 
 /** Save bytes as a file. */

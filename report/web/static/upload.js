@@ -26,22 +26,14 @@ export function mountUpload({ zone, files, folder }, { begin, take, fail }) {
       input.value = ""; // the same file again is a change
     });
   }
-  let depth = 0;
-  const shown = (isOver) => zone.classList.toggle("is-over", isOver);
-  addEventListener("dragenter", (event) => {
+  const shows = (isOver) => (event) => {
     event.preventDefault();
-    depth += 1;
-    shown(true);
-  });
-  addEventListener("dragleave", () => {
-    depth -= 1;
-    if (depth === 0) shown(false);
-  });
-  addEventListener("dragover", (event) => event.preventDefault());
+    zone.classList.toggle("is-over", isOver);
+  };
+  for (const kind of ["dragenter", "dragover"]) addEventListener(kind, shows(true));
+  addEventListener("dragleave", (event) => event.relatedTarget || shows(false)(event)); // it leaves the page
   addEventListener("drop", (event) => {
-    event.preventDefault();
-    depth = 0;
-    shown(false);
+    shows(false)(event);
     // Entries are only readable until the first await.
     const entries = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter(Boolean);
     receive(all(entries));
@@ -76,18 +68,10 @@ async function all(entries) {
 }
 
 async function inside(entry) {
-  const path = entry.fullPath.replace(/^\//, "");
-  if (entry.isFile) {
-    const file = await new Promise((done, failed) => entry.file(done, failed));
-    return [{ file, path }];
-  }
-  const found = [];
-  const reader = entry.createReader();
+  if (entry.isFile) return [{ file: await new Promise((done, failed) => entry.file(done, failed)), path: entry.fullPath.replace(/^\//, "") }];
+  const [found, reader] = [[], entry.createReader()];
+  const batch = () => new Promise((done, failed) => reader.readEntries(done, failed));
   // A reader gives at most 100 entries at a time.
-  for (let part = await batch(reader); part.length > 0; part = await batch(reader)) found.push(...part);
+  for (let part = await batch(); part.length > 0; part = await batch()) found.push(...part);
   return all(found);
-}
-
-function batch(reader) {
-  return new Promise((done, failed) => reader.readEntries(done, failed));
 }

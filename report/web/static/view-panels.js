@@ -1,145 +1,78 @@
 // Histories one above the other over one axis of time, with the value at a time in their headings. The server
 // sends values at the samples, or at the numbers of samples beside them, null where there is none.
 
-import { html, replace, set, svg } from "./make.js";
-import { measured } from "./reading.js";
-import { frame, linesAcross, linesUp, pointerIn, scale, setSize, textsAcross, textsUp, ticks, within } from "./view-parts.js";
+import { html, set, svg } from "./make.js";
+import { measured, tickText } from "./reading.js";
+import { axisUp, percent, ticks, within } from "./view-parts.js";
 
-const LEFT = 46;
-const RIGHT = 8;
-const HEAD = 20; // height of a line of a heading, as in views.css
-const NARROW = 320; // below it a heading has a line more, and so has the whole
-const AXIS = 22;
 const ROOM = 0.06; // of the range of the values, above and below
-let made = 0;
+const TICKS = 4; // of the time in sight, about
+const PIECE = 400; // samples of a path: the browser paints those in sight
 const LOOKS = { cross: "is-across", vertical: "is-third", demand: "is-third" };
 
 /**
- * Return panels of a run: `panels` are `{ title, units, series, least, most, over }`, where `series` have `name`,
- * `t`, `v` and `look`, `least` and `most` bound the axis, and `over` is the span of time whose values
- * set it, the one shown if not given. Values read in the first unit.
+ * Return panels of a run, of which so many seconds are in sight: `panels` are `{ title, units, series, least, most }`,
+ * where `series` have `name`, `t`, `v` and `look`, and `least` and `most` bound the axis. Values read in the
+ * first unit. `at(time, slip)` marks a time, and a slip if one is given; `timeAt(event)` is that under a pointer.
  */
-export function createPanels(panels, { seconds, slips }) {
-  const drawn = panels.map((panel) => createPanel(panel));
-  const axis = svg("svg", { class: "panel-axis", "aria-hidden": true });
-  const element = html("div", { class: "panels" }, drawn.map((panel) => panel.element), axis);
-  let size = { width: 0, height: 0 };
-  let span = [0, seconds];
-  let x = scale(span, [LEFT, LEFT + 1]);
-  let now = 0;
-  let picked = null;
-
-  function draw() {
-    const { width, height } = size;
-    if (width === 0) return;
-    x = scale(span, [LEFT, width - RIGHT]);
-    const tall = Math.floor((height - AXIS) / drawn.length) - HEAD;
-    const times = ticks(...span, width / 90);
-    for (const panel of drawn) panel.draw({ width, tall, span, x, times, slips });
-    drawAxis(axis, width, x, times);
-    mark();
-  }
-
-  function mark() {
-    for (const panel of drawn) panel.mark(now, x, span, picked);
-  }
+export function createPanels(panels, { seconds, slips }, shown = seconds) {
+  const { values: times, step } = ticks(0, seconds, (TICKS * seconds) / shown);
+  const runs = [];
+  // As wide as the whole run, and moved to the seconds in sight.
+  const run = (...content) => {
+    runs.push(svg("svg", { width: `${percent(seconds, [0, shown])}%` }, content));
+    return svg("svg", { class: "clip" }, runs.at(-1));
+  };
+  const bands = slips.map(({ from_s: from, to_s: to }) => `M${from} 0H${to}V100H${from}Z`).join("");
+  const ground = () => [svg("path", { class: "slip-bands", d: bands }), times.map((time) => svg("line", { class: "hair", x1: time, x2: time, y2: 100 }))];
+  const drawn = panels.map((panel) =>
+    createPanel(panel, (...content) => run(svg("svg", { viewBox: `0 0 ${seconds} 100`, preserveAspectRatio: "none" }, ground(), content))),
+  );
+  const labels = times.map((time) => svg("text", { class: "tick", x: `${percent(time, [0, seconds])}%`, dx: 3, y: 15 }, `${tickText(time, step)} s`));
+  const axis = svg("svg", { class: "plot times", "aria-hidden": true }, run(labels));
 
   return {
-    element,
-    /** Fill a width and height. */
-    resize(width, height) {
-      size = { width, height };
-      element.classList.toggle("is-narrow", width < NARROW);
-      draw();
+    element: html("div", { class: "panels" }, drawn.map(({ element }) => element), axis),
+    at(time, slip) {
+      const from = within(time - shown / 2, 0, seconds - shown);
+      for (const one of runs) one.setAttribute("x", `${-percent(from, [0, shown])}%`);
+      for (const one of drawn) one.mark(time, slip);
     },
-    /** Show a span of time. */
-    show(next) {
-      span = next;
-      draw();
+    timeAt({ clientX }) {
+      const { left, width } = axis.getBoundingClientRect();
+      return (seconds * (clientX - left)) / width;
     },
-    /** Mark a time, and a slip if one is given, and write the values there. */
-    at(time, slip = null) {
-      now = time;
-      picked = slip;
-      mark();
-    },
-    /** Return the time under a pointer. */
-    timeAt: (event) => within(x.inverse(pointerIn(element, event)[0]), ...span),
   };
 }
 
-function createPanel({ title, units, series, least, most, over }) {
-  made += 1;
-  const clip = `panel-${made}`;
+// A panel; `placed` draws contents over seconds and percents.
+function createPanel({ title, units: [unit], series, least, most }, placed) {
   const values = series.map(() => html("span", { class: "value numbers" }));
   const looks = series.map(({ name, look }, k) => html("span", { class: "reading" }, sample(look), `${name} `, values[k]));
-  const bands = svg("path", { class: "slip-bands" });
-  const band = svg("rect", { class: "slip-picked", y: 0, width: 0 });
-  const grid = svg("g", { class: "grid" });
-  const labels = svg("g", { class: "panel-labels" });
-  const lines = series.map(({ look }) => svg("path", { class: `curve ${look}` }));
-  const cursor = svg("line", { class: "cursor", y1: 0 });
-  const window = svg("rect", { x: LEFT, y: 0 });
-  const plot = svg(
-    "svg",
-    { role: "img", "aria-label": `${title} in time` },
-    svg("clipPath", { id: clip }, window),
-    svg("g", { "clip-path": `url(#${clip})` }, bands, band, grid, lines.toReversed(), cursor),
-    labels,
-  );
-  const head = html("div", { class: "panel-head" }, html("strong", {}, title), looks);
-
+  const range = limits(series, unit, least, most);
+  const band = svg("rect", { class: "slip-picked", height: 100 });
+  const curves = series.map((one) => curve(one, (value) => 100 - percent(value / unit.si, range)));
+  const cursor = svg("line", { class: "cursor", y2: 100 });
+  const plot = svg("svg", { class: "plot", role: "img", "aria-label": `${title} in time` }, axisUp(range, 3.5, true), placed(band, curves.toReversed(), cursor));
   return {
-    element: html("div", { class: "panel" }, head, plot),
-    draw({ width, tall, span, x, times, slips }) {
-      setSize(plot, width, tall);
-      set(window, { width: width - RIGHT - LEFT, height: tall });
-      set(band, { height: tall });
-      set(cursor, { y2: tall });
-      const [low, high] = limits(series, over ?? span, least, most, units[0].si);
-      const y = scale([low / units[0].si, high / units[0].si], [tall, 0]);
-      const levels = ticks(low / units[0].si, high / units[0].si, tall / 20);
-      replace(
-        grid,
-        linesAcross(times, x, y.ends),
-        linesUp(levels, x.ends, y),
-        frame(x, y),
-      );
-      const inside = levels.values.filter((value) => y(value) > 6 && y(value) < tall - 3);
-      replace(labels, textsUp({ ...levels, values: inside }, LEFT - 6, y));
-      set(bands, { d: slips.filter((slip) => slip.to_s > span[0] && slip.from_s < span[1]).map((slip) => `M${x(slip.from_s).toFixed(2)} 0H${x(slip.to_s).toFixed(2)}V${tall}H${x(slip.from_s).toFixed(2)}Z`).join("") });
-      series.forEach((one, k) => set(lines[k], { d: curve(one, span, x, (value) => y(value / units[0].si)) }));
-    },
-    mark(time, x, span, picked) {
-      const inside = time >= span[0] && time <= span[1];
-      set(cursor, { x1: x(time), x2: x(time), visibility: inside ? "visible" : "hidden" });
-      if (picked) set(band, { x: x(picked.from_s), width: Math.max(x(picked.to_s) - x(picked.from_s), 1) });
-      set(band, { visibility: picked ? "visible" : "hidden" });
+    element: html("div", { class: "panel" }, html("div", { class: "panel-head" }, html("strong", {}, title), looks), plot),
+    mark(time, slip) {
+      set(cursor, { x1: time, x2: time });
+      set(band, { x: slip?.from_s ?? 0, width: slip ? slip.to_s - slip.from_s : 0 });
       series.forEach((one, k) => {
-        values[k].textContent = measured(valueAt(one, time), units[0]);
+        values[k].textContent = measured(valueAt(one, time), unit);
       });
     },
   };
 }
 
-function drawAxis(axis, width, x, { values, step }) {
-  setSize(axis, width, AXIS);
-  const room = width - RIGHT - 68; // the title and half of a number
-  const shown = { step, values: values.filter((time) => x(time) < room) };
-  replace(axis, textsAcross(shown, x, 15), svg("text", { class: "tick end-at", x: width - RIGHT, y: 15 }, "Time [s]"));
-}
-
-// The range of what is drawn in a span of time, with some room.
-function limits(series, span, least, most, unit) {
-  const ranges = series.map((one) => rangeIn(one, span)).filter(Boolean);
-  let low = least ?? Math.min(...ranges.map(([bottom]) => bottom), Infinity);
-  let high = Math.min(most ?? Infinity, Math.max(...ranges.map(([, top]) => top), -Infinity));
-  if (!(low < high)) {
-    const middle = Number.isFinite(low) ? low : 0;
-    [low, high] = [middle - unit, middle + unit];
-  }
+// The range of an axis in a unit, with some room around the values.
+function limits(series, { si }, least, most = Infinity) {
+  const values = series.flatMap(({ v }) => v).filter((value) => value !== null).toSorted((a, b) => a - b);
+  let [low, high] = [least ?? values[0] ?? 0, Math.min(most, values.at(-1) ?? 0)];
+  if (!(low < high)) [low, high] = [low - si, low + si];
   const room = ROOM * (high - low);
-  return [least ?? low - room, high + room];
+  return [least ?? low - room, high + room].map((value) => value / si);
 }
 
 function sample(look) {
@@ -151,76 +84,28 @@ export function panelOf(data, kind) {
   const series = data[kind].series.map(({ name, i, v }) => ({
     name,
     look: LOOKS[name] ?? "is-first",
-    t: Float64Array.from(i ?? v.keys(), (k) => k * data.dt_s),
+    t: Array.from(i ?? v.keys(), (k) => k * data.dt_s),
     v,
   }));
   return { title: data[kind].title, units: data[kind].units, series };
 }
 
-/** Return the number of the last of ascending values that is not above one; -1 if all are. */
-export function lastUpTo(ascending, value) {
-  let low = 0;
-  let high = ascending.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (ascending[middle] <= value) low = middle + 1;
-    else high = middle;
-  }
-  return low - 1;
-}
-
-/** Return the value at a time, linear between the samples drawn; null where there is none. */
+/** Return the value at a time, linear between the samples; null where there is none. */
 export function valueAt({ t, v }, time) {
-  const k = within(lastUpTo(t, time), 0, t.length - 1);
+  const k = Math.max(t.findLastIndex((one) => one <= time), 0);
   if (k === t.length - 1 || time <= t[k]) return v[k];
   if (v[k] === null || v[k + 1] === null) return null;
   return v[k] + ((v[k + 1] - v[k]) * (time - t[k])) / (t[k + 1] - t[k]);
 }
 
-/** Return the smallest and largest value in a span of time, as `[low, high]`; null if there is none. */
-export function rangeIn({ t, v }, [from, to]) {
-  let low = Infinity;
-  let high = -Infinity;
-  const end = Math.min(lastUpTo(t, to) + 1, t.length - 1);
-  for (let k = Math.max(lastUpTo(t, from), 0); k <= end; k += 1) {
-    if (v[k] === null) continue;
-    low = Math.min(low, v[k]);
-    high = Math.max(high, v[k]);
+/** Return a history of all of its samples as paths, each from the end of the one before; `y` places a value. */
+export function curve({ t, v, look }, y) {
+  const paths = [];
+  for (let begin = 0; begin < v.length; begin += PIECE) {
+    const piece = v.slice(begin, begin + PIECE + 1);
+    const pen = (k) => ((piece[k - 1] ?? null) === null ? "M" : "L");
+    const points = piece.map((value, k) => (value === null ? "" : `${pen(k)}${t[begin + k].toFixed(4)} ${y(value).toFixed(2)}`));
+    paths.push(svg("path", { class: `curve ${look}`, d: points.join("") }));
   }
-  return low <= high ? [low, high] : null;
-}
-
-/** Return the path of a history in a span of time: at most four points in each column of pixels. */
-export function curve({ t, v }, span, x, y) {
-  let drawn = "";
-  let pen = "M";
-  let column = null;
-  const draw = (k) => {
-    drawn += `${pen}${x(t[k]).toFixed(2)} ${y(v[k]).toFixed(2)}`;
-    pen = "L";
-  };
-  const flush = () => {
-    if (column) [...new Set(column)].toSorted((a, b) => a - b).forEach(draw);
-    column = null;
-  };
-  const end = Math.min(lastUpTo(t, span[1]) + 1, t.length - 1);
-  let pixel = NaN;
-  for (let k = Math.max(lastUpTo(t, span[0]), 0); k <= end; k += 1) {
-    if (v[k] === null) {
-      flush();
-      pen = "M";
-      continue;
-    }
-    const here = Math.floor(x(t[k]));
-    if (here !== pixel || !column) {
-      flush();
-      pixel = here;
-      column = [k, k, k, k]; // first, lowest, highest, last
-    }
-    if (v[k] < v[column[1]]) column[1] = k;
-    if (v[k] > v[column[2]]) column[2] = k;
-    column[3] = k;
-  }
-  flush();
-  return drawn;
+  return paths;
 }

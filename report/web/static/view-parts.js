@@ -1,87 +1,40 @@
-// Parts that the drawings of the views share: sizes, pointers, frames, ticks, crosses, arrows, scale
-// bars, and the scales and round ticks of axes, to the right and upward.
+// Parts that the drawings of the views share: axes with round ticks, and shapes. Drawings are placed in percent
+// of their area, so that the browser fits them to any width; words and the lines of an axis keep their size.
 
-import { set, svg } from "./make.js";
+import { svg } from "./make.js";
 import { tickText } from "./reading.js";
 
-const BAR = 4; // half the height of the ends of a scale bar
-
-/** Give a drawing a width and height in pixels. */
-export function setSize(drawing, width, height) {
-  set(drawing, { width, height, viewBox: `0 0 ${width} ${height}` });
+/** Return where a value is in a range, in percent. */
+export function percent(value, [low, high]) {
+  return (100 * (value - low)) / (high - low);
 }
 
-/** Return where a pointer is in an element, in pixels. */
-export function pointerIn(element, { clientX, clientY }) {
-  const { left, top } = element.getBoundingClientRect();
-  return [clientX - left, clientY - top];
+/** Return the axis of a range along the foot of an area. */
+export function axisAcross(range, wanted) {
+  const { values, step } = ticks(...range, wanted);
+  const tick = (value) => {
+    const x = `${percent(value, range)}%`;
+    return [svg("line", { x1: x, x2: x, y2: 4 }), svg("text", { class: "tick middle-of", x, y: 17 }, tickText(value, step))];
+  };
+  return svg("svg", { class: "axis", y: "100%" }, svg("line", { x2: "100%" }), values.map(tick));
 }
 
-/** Have a drawing read where the pointer is in it. */
-export function onPointer(drawing, read) {
-  drawing.addEventListener("pointermove", (event) => read(pointerIn(drawing, event)));
-}
-
-/** Return the left side and the foot of what two scales span. */
-export function frame({ ends: [left, right] }, { ends: [foot, top] }) {
-  return svg("path", { class: "frame", d: `M${left} ${top}V${foot}H${right}` });
-}
-
-/** Return lines at the ticks of an axis to the right, from one height to another. */
-export function linesAcross({ values }, x, [from, to]) {
-  return values.map((value) => svg("line", { x1: x(value), x2: x(value), y1: from, y2: to }));
-}
-
-/** Return lines at the ticks of an axis upward, from one place to another; that at zero has its look. */
-export function linesUp({ values }, [from, to], y) {
-  return values.map((value) => svg("line", { class: value === 0 ? "zero" : null, x1: from, x2: to, y1: y(value), y2: y(value) }));
-}
-
-/** Return the texts of ticks along an axis to the right, centered below their places. */
-export function textsAcross({ values, step }, x, y) {
-  return values.map((value) => svg("text", { class: "tick middle-of", x: x(value), y }, tickText(value, step)));
-}
-
-/** Return the texts of ticks along an axis upward, which end at a place. */
-export function textsUp({ values, step }, x, y) {
-  return values.map((value) => svg("text", { class: "tick end-at", x, y: y(value) + 4 }, tickText(value, step)));
-}
-
-/** Return the path of a cross, by half its width. */
-export function cross([x, y], half) {
-  return `M${x - half} ${y}h${2 * half}M${x} ${y - half}v${2 * half}`;
-}
-
-/** Return an arrow in a direction, by its middle and half its length. */
-export function arrow([x, y], [dx, dy], half) {
-  const [tip, tail] = [half, -half].map((along) => `${x + along * dx} ${y + along * dy}`);
-  const wing = (side) => `${x + (half - 8) * dx - 4 * side * dy} ${y + (half - 8) * dy + 4 * side * dx}`;
-  return svg("path", { class: "arrow", d: `M${tail}L${tip}M${wing(1)}L${tip}L${wing(-1)}` });
-}
-
-/** Return a bar of a round length in a unit, at most so many pixels wide, with its text. */
-export function scaleBar([x, y], unit, pixelsPerMeter, most) {
-  const length = roundBelow(most / pixelsPerMeter / unit.si);
-  const wide = length * unit.si * pixelsPerMeter;
-  return [
-    svg("path", { class: "bar-line", d: `M${x} ${y - BAR}v${2 * BAR}M${x} ${y}h${wide}m0 ${-BAR}v${2 * BAR}` }),
-    svg("text", { class: "label on-line", x: x + wide + 6, y: y + 4 }, `${length} ${unit.symbol}`),
-  ];
+/** Return the axis of a range along the left of an area; as a grid, with lines across and no number at its ends. */
+export function axisUp(range, wanted, isGrid = false) {
+  const { values, step } = ticks(...range, wanted);
+  const tick = (value) => {
+    const [at, y] = [percent(value, range), `${100 - percent(value, range)}%`];
+    const line = isGrid ? { class: value === 0 ? "zero" : "hair", x2: "100%" } : { x1: -4 };
+    const text = svg("text", { class: "tick end-at", x: -7, y, dy: 4 }, tickText(value, step));
+    return [svg("line", { ...line, y1: y, y2: y }), (!isGrid || within(at, 3.5, 92) === at) && text];
+  };
+  return svg("g", { class: "axis" }, values.map(tick), svg("line", { y2: "100%" }));
 }
 
 /** Return the largest of 1, 2, 5 times a power of ten that is not above a positive value. */
 export function roundBelow(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   return [5, 2, 1].find((digit) => digit * power <= value * (1 + 1e-9)) * power;
-}
-
-/** Return a linear scale from a range of values to one of pixels, with its inverse and its `ends` in pixels. */
-export function scale([low, high], [from, to]) {
-  const factor = (to - from) / (high - low);
-  const at = (value) => from + (value - low) * factor;
-  at.inverse = (pixel) => low + (pixel - from) / factor;
-  at.ends = [from, to];
-  return at;
 }
 
 /** Return round values within a range, at most about as many as wanted, and their step. */
@@ -95,14 +48,17 @@ export function ticks(low, high, wanted) {
   return { values, step };
 }
 
-/** Return the box around points, as `{x, y, wide, tall}`. */
-export function boxAround(points) {
-  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
-  const [x, y] = [Math.min(...xs), Math.min(...ys)];
-  return { x, y, wide: Math.max(...xs) - x, tall: Math.max(...ys) - y };
-}
-
 /** Return a value held between two limits. */
 export function within(value, low, high) {
   return Math.min(Math.max(value, low), high);
+}
+
+/** Have an element, not what is in it, answer keys: `keys` are functions of the event by key. */
+export function onKeys(element, keys) {
+  element.addEventListener("keydown", (event) => {
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    if (event.target !== element || !(key in keys) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    keys[key](event);
+  });
 }

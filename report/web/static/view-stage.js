@@ -1,33 +1,28 @@
 // What moves with the time of a run: the roof over the ground and the array over the roof, where it leaves its
 // path; beside them histories.
 
-import { html, points, replace, set, svg } from "./make.js";
-import { arrow, boxAround, cross, roundBelow, scaleBar, within } from "./view-parts.js";
-import { createPanels, lastUpTo, panelOf, rangeIn } from "./view-panels.js";
+import { html, points, set, svg } from "./make.js";
+import { roundBelow, within } from "./view-parts.js";
+import { createPanels, panelOf } from "./view-panels.js";
 
-const HEIGHT = 330;
-const GROUND = 142; // height of the plan seen from the ground
-const GAP = 6;
-const WHOLE = 128; // height of the displacement over the whole run
 const CLOSE_S = 4; // of the forces, around the time
-const NARROW = 540; // below it the plans are above the histories
-const FOOT = 60; // below a plan that is narrow: the array moves over no words there
-const PLAN = 0.4; // of the width
-const BETWEEN = 12; // plans and histories
 const MOST_DEMAND = 1.6; // times the largest friction used: the axis of friction ends there
-const ARRAY = 0.3; // of the drawing, that the array fills
-const MOTION = 0.34; // of the drawing, to each side, that the motion fills
-const GRID = 26; // pixels between the lines of the roof
 const LEAST_M = 1e-4; // a motion below it is none
-const BAR = 80; // pixels of the scale bar, at most
+// In percent of the smaller side of a plan, which the browser scales:
+const ARRAY = 30; // that the array fills
+const MOTION = 34; // to each side, that the motion fills
+const GRID = 18; // between the lines of the roof
+const ROOF = 18 * GRID; // that the lines go to, so that they never end while they move
+const BAR = 45; // of the scale bar, at most
 
 /** Return the stage of a run; `seek` is called with the time where the whole run is pressed. */
 export function createStage(data, seek) {
-  const { seconds } = data;
-  const tracks = [false, true].map((isFromRoof) => createTrack(data, isFromRoof));
-  const [displacement, ...forces] = panelsOf(data);
-  const whole = createPanels([displacement], data);
-  const close = createPanels(forces, data);
+  const run = { ...data, ...motionOf(data) };
+  const tracks = [createTrack(run, "From the ground", run.base), createTrack(run, "On the roof", run.base.map(() => [0, 0]))];
+  const [relative, normal, friction] = ["relative", "normal", "friction"].map((kind) => panelOf(data, kind));
+  const used = Math.max(0.1, friction.series[0].v.reduce((most, value) => Math.max(most, value), 0));
+  const whole = createPanels([relative], data);
+  const close = createPanels([normal, { ...friction, least: 0, most: MOST_DEMAND * used }], data, Math.min(CLOSE_S, data.seconds));
   const element = html(
     "div",
     { class: "watch", tabindex: 0, role: "application", "aria-label": "Run in time", "aria-describedby": "slide-keys" },
@@ -37,140 +32,91 @@ export function createStage(data, seek) {
   for (const kind of ["pointerdown", "pointermove"]) {
     whole.element.addEventListener(kind, (event) => event.buttons === 1 && seek(whole.timeAt(event)));
   }
-
   return {
     element,
-    resize(wide) {
-      const isNarrow = wide < NARROW;
-      element.classList.toggle("is-narrow", isNarrow);
-      const plan = isNarrow ? (wide - GAP) / 2 : Math.round(PLAN * wide);
-      tracks[0].resize(plan, isNarrow ? plan + FOOT : GROUND);
-      tracks[1].resize(plan, isNarrow ? plan + FOOT : HEIGHT - GROUND - GAP);
-      const right = isNarrow ? wide : wide - plan - BETWEEN;
-      whole.resize(right, WHOLE);
-      close.resize(right, HEIGHT - WHOLE);
-    },
     /** Move everything to a time, and mark the slip under way. */
     at(time, slip) {
-      const from = within(time - CLOSE_S / 2, 0, Math.max(seconds - CLOSE_S, 0));
-      close.show([from, Math.min(from + CLOSE_S, seconds)]);
       for (const part of [whole, close, ...tracks]) part.at(time, slip);
     },
   };
 }
 
-function panelsOf(data) {
-  const [relative, normal, friction] = ["relative", "normal", "friction"].map((kind) => panelOf(data, kind));
-  const over = [0, data.seconds];
-  const [, most] = rangeIn(friction.series[0], over) ?? [0, 1];
-  return [
-    relative,
-    { ...normal, over },
-    { ...friction, least: 0, most: MOST_DEMAND * Math.max(most, 0.1), over },
-  ];
+// In the axes of the plan the places of the roof and of the array relative to it [m], which stays where it has no
+// displacement.
+function motionOf({ relative: { series }, roof_m: roof, plan }) {
+  const turned = (down, across) => inPlan(down ?? 0, across ?? 0, plan.downslope_deg);
+  const path = series[0].v.map((down, k) => turned(down, series[1]?.v[k]));
+  const base = roof[0].map((down, k) => turned(down, roof[1]?.[k]));
+  return { base, path };
+}
+
+// Cross-slope is to the left of one who faces downslope. The plan counts up, SVG down.
+function inPlan(down, across, degrees) {
+  const [cos, sin] = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
+  return [down * cos - across * sin, -down * sin - across * cos];
 }
 
 /**
- * Return a plan of a run, seen from the ground or from the roof; `at` moves it to a time and marks
- * the slip under way on its path.
+ * Return a plan of a run beside what its `base` moves over; `at` moves it to a time and marks the slip under
+ * way on its path.
  */
-function createTrack(data, isFromRoof) {
-  const run = motion(data, isFromRoof);
-  const title = isFromRoof ? "On the roof" : "From the ground";
-  const shapes = makeShapes(isFromRoof, `Plan in motion. ${title}`);
-  let scale = null;
+function createTrack(run, title, base) {
+  const { shape, pixel, moves, factor } = scaleOf(run, base);
+  const placed = (places) => places.map(([x, y]) => [x * pixel, y * pixel]);
+  const [roof, path] = [placed(base), placed(run.path)];
+  const along = lengths(path);
+  const line = (look) => svg("polyline", { class: look, points: points(path) });
+  const [done, picked] = [line("track-done"), line("track-picked")];
+  const block = svg("polygon", { class: "track-block", points: shape });
+  const moving = svg("g", {}, block, svg("circle", { class: "track-center", r: 2.3 }));
+  const [cx, cy] = between(path, run, run.t_prd_s ?? 0);
+  const onRoof = svg(
+    "g",
+    {},
+    svg("path", { class: "track-grid", d: gridOf() }),
+    svg("polygon", { class: "track-start", points: shape }),
+    moving,
+    line("track-path"),
+    done,
+    picked,
+    svg("path", { class: "start", d: "M-4 0h8M0 -4v8" }),
+    run.t_prd_s !== null && svg("circle", { class: "peak", r: 2.6, cx, cy }),
+  );
+  const isFromGround = base === run.base;
+  const scene = svg("svg", { viewBox: "-50 -50 100 100", preserveAspectRatio: "xMidYMin" }, onRoof, isFromGround && svg("path", { class: "track-ground", d: "M-50 0h7M50 0h-7M0 50v-7" }));
+  const words = [title, moves && `Motion ${factor === 1 ? "to scale" : `× ${factor}`}`];
 
+  const gone = (time) => {
+    const [k, [x, y]] = [sampleAt(run, time), between(path, run, time)];
+    return along[k] + Math.hypot(x - path[k][0], y - path[k][1]);
+  };
   return {
-    element: shapes.drawing,
-    resize(width, height) {
-      scale = scaleOf(run, data.plan.outline, width, height);
-      place(shapes, run, data, { ...scale, title });
-    },
+    element: svg("svg", { role: "img", class: "track", "aria-label": `Plan in motion. ${title}` }, scene, footOf(run, words, pixel)),
     at(time, slip) {
-      if (!scale) return;
-      const { pixel, path, along } = scale;
-      const [roof, [x, y]] = [run.base, run.relative].map((places) => between(run.t, places, time).map((value) => value * pixel));
-      shapes.onRoof.setAttribute("transform", translation(roof));
-      shapes.moving.setAttribute("transform", translation([x, y]));
-      shapes.block.classList.toggle("is-slipping", Boolean(slip));
-      const k = Math.max(lastUpTo(run.t, time), 0);
-      const gone = along[k] + Math.hypot(x - path[k][0], -y - path[k][1]);
-      set(shapes.done, { "stroke-dasharray": `${gone.toFixed(1)} ${along.at(-1) + 1}`, visibility: gone > 0 ? "visible" : "hidden" });
-      set(shapes.picked, { points: slip ? points(piece(run, scale, slip)) : "" });
+      onRoof.setAttribute("transform", `translate(${between(roof, run, time)})`);
+      moving.setAttribute("transform", `translate(${between(path, run, time)})`);
+      block.classList.toggle("is-slipping", Boolean(slip));
+      set(done, dashes(0, gone(time)));
+      set(picked, slip ? dashes(gone(slip.from_s), gone(slip.to_s)) : dashes(0, 0));
     },
   };
 }
 
-function makeShapes(isFromRoof, title) {
-  const parts = {
-    grid: svg("path", { class: "track-grid" }),
-    start: svg("polygon", { class: "track-start" }),
-    block: svg("polygon", { class: "track-block" }),
-    whole: svg("polyline", { class: "track-path" }),
-    done: svg("polyline", { class: "track-done" }),
-    picked: svg("polyline", { class: "track-picked" }),
-    peak: svg("circle", { class: "peak", r: 4 }),
-    ground: isFromRoof ? null : svg("path", { class: "track-ground" }),
-    foot: svg("g", { class: "track-foot" }),
-  };
-  const { grid, start, block, whole, done, picked, peak, ground, foot } = parts;
-  const moving = svg("g", {}, block, svg("circle", { class: "track-center", r: 3.5 }));
-  const onRoof = svg("g", {}, grid, start, moving, whole, done, picked, svg("path", { class: "start", d: cross([0, 0], 6) }), peak);
-  const drawing = svg("svg", { role: "img", class: "track", "aria-label": title }, onRoof, ground, foot);
-  return { ...parts, moving, onRoof, drawing };
-}
-
-// Pixels of a meter, of the plan and of the motion, with the path and its length at that scale.
-function scaleOf({ reach, relative }, outline, width, height) {
-  const least = Math.min(width, height);
-  const box = boxAround(outline);
-  const perMeter = (ARRAY * least) / Math.max(box.wide, box.tall, 1e-9);
+// How large the array and its motion are drawn: `pixel` is of a meter of the motion.
+function scaleOf({ plan: { outline }, path }, base) {
+  const [xs, ys] = [0, 1].map((axis) => outline.map((point) => point[axis]).toSorted((a, b) => a - b));
+  const [wide, tall] = [xs, ys].map((all) => all.at(-1) - all[0]);
+  const perMeter = ARRAY / Math.max(wide, tall, 1e-9);
+  const reach = base.reduce((most, [x, y], k) => Math.max(most, Math.hypot(x, y), Math.hypot(x + path[k][0], y + path[k][1])), 0);
   const moves = reach >= LEAST_M;
-  const factor = moves ? roundBelow((MOTION * least) / (reach * perMeter)) : 1;
-  const pixel = factor * perMeter;
-  const path = relative.map(([x, y]) => [x * pixel, -y * pixel]);
-  return { width, height, box, perMeter, moves, factor, pixel, path, along: lengths(path) };
+  const factor = moves ? roundBelow(MOTION / (reach * perMeter)) : 1;
+  const shape = points(outline.map(([x, y]) => [(x - xs[0] - wide / 2) * perMeter, (ys[0] + tall / 2 - y) * perMeter]));
+  return { shape, pixel: factor * perMeter, moves, factor };
 }
 
-function place(shapes, { peak }, data, scale) {
-  const { width, height, box, perMeter, pixel, path } = scale;
-  const [cx, top] = [width / 2, Math.min(width, height) / 2];
-  const bottom = height - top;
-  set(shapes.drawing, { width, height, viewBox: `${-cx} ${-top} ${width} ${height}` });
-  const shape = points(data.plan.outline.map(([x, y]) => [(x - box.x - box.wide / 2) * perMeter, (box.y + box.tall / 2 - y) * perMeter]));
-  for (const polygon of [shapes.start, shapes.block]) set(polygon, { points: shape });
-  const line = points(path);
-  for (const one of [shapes.whole, shapes.done]) set(one, { points: line });
-  set(shapes.grid, { d: gridOf(width, height) });
-  if (shapes.ground) set(shapes.ground, { d: `M${-cx} 0h10M${cx} 0h-10M0 ${bottom}v-10` });
-  if (peak) set(shapes.peak, { cx: (peak[0] * pixel).toFixed(1), cy: (-peak[1] * pixel).toFixed(1) });
-  set(shapes.peak, { visibility: peak ? "visible" : "hidden" });
-  drawFoot(shapes.foot, { cx, top, bottom, scale, data });
-}
-
-// The part of the path of one slip.
-function piece({ t, relative }, { pixel, path }, { from_s: from, to_s: to }) {
-  const inside = path.slice(lastUpTo(t, from) + 1, lastUpTo(t, to) + 1);
-  const [first, last] = [from, to].map((time) => between(t, relative, time)).map(([x, y]) => [x * pixel, -y * pixel]);
-  return [first, ...inside, last];
-}
-
-// Times, and in the axes of the plan the places of the drawing's base, of the array relative to the
-// roof, and of the PRD; `reach` is how far the motion goes [m]. The array stays where it has no
-// displacement.
-function motion({ relative: { series }, roof_m: roof, dt_s: dt, t_prd_s: tPrd, plan }, isFromRoof) {
-  const turned = (down, across) => inPlan(down ?? 0, across ?? 0, plan.downslope_deg);
-  const relative = series[0].v.map((down, k) => turned(down, series[1]?.v[k]));
-  const base = roof[0].map((down, k) => (isFromRoof ? [0, 0] : turned(down, roof[1]?.[k])));
-  const reach = base.reduce((most, [x, y], k) => Math.max(most, Math.hypot(x, y), Math.hypot(x + relative[k][0], y + relative[k][1])), 0);
-  const t = base.map((_, k) => k * dt);
-  return { t, base, relative, reach, peak: tPrd === null ? null : between(t, relative, tPrd) };
-}
-
-// Cross-slope is to the left of one who faces downslope.
-function inPlan(down, across, degrees) {
-  const [cos, sin] = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
-  return [down * cos - across * sin, down * sin + across * cos];
+// The part of a line from one length to another.
+function dashes(from, to) {
+  return { "stroke-dasharray": `0 ${from} ${to - from} 1e6`, visibility: to > from ? "visible" : "hidden" };
 }
 
 // The length of a path up to each of its points.
@@ -182,34 +128,38 @@ function lengths(path) {
   });
 }
 
-function between(t, places, time) {
-  const k = within(lastUpTo(t, time), 0, t.length - 2);
-  const share = within((time - t[k]) / (t[k + 1] - t[k]), 0, 1);
+// The number of the last sample but one that is not after a time.
+function sampleAt({ dt_s: dt, path }, time) {
+  return within(Math.floor(time / dt), 0, path.length - 2);
+}
+
+function between(places, run, time) {
+  const k = sampleAt(run, time);
+  const share = within(time / run.dt_s - k, 0, 1);
   return [0, 1].map((axis) => places[k][axis] + share * (places[k + 1][axis] - places[k][axis]));
 }
 
-// Lines on the roof, beyond the drawing on all sides, so that it never ends while it moves.
-function gridOf(width, height) {
-  const [across, up] = [Math.ceil(width / GRID), Math.ceil(height / GRID)];
-  const [w, h] = [across * GRID, up * GRID];
+function gridOf() {
   let lines = "";
-  for (let k = -across; k <= across; k += 1) lines += `M${k * GRID} ${-h}V${h}`;
-  for (let k = -up; k <= up; k += 1) lines += `M${-w} ${k * GRID}H${w}`;
+  for (let at = -ROOF; at <= ROOF; at += GRID) lines += `M${at} ${-ROOF}V${ROOF}M${-ROOF} ${at}H${ROOF}`;
   return lines;
 }
 
-function translation([x, y]) {
-  return `translate(${x.toFixed(2)} ${(-y).toFixed(2)})`;
-}
-
-function drawFoot(foot, { cx, top, bottom, scale: { title, pixel, moves, factor }, data: { plan, relative } }) {
-  const shown = moves && `Motion ${factor === 1 ? "to scale" : `× ${factor}`}`;
-  const [dx, dy] = inPlan(1, 0, plan.downslope_deg);
-  replace(
-    foot,
-    scaleBar([-cx + 10, bottom - 12], relative.units[0], pixel, BAR),
-    [title, shown].map((words, k) => words && svg("text", { class: "tick on-line", x: -cx + 10, y: -top + 16 * (k + 1) }, words)),
-    arrow([cx - 26, bottom - 26], [dx, -dy], 14),
-    svg("text", { class: "tick on-line end-at", x: cx - 8, y: bottom - 48 }, "downslope"),
+// Words in the corners, a bar of a round length, and the arrow downslope.
+function footOf({ plan, relative }, words, pixel) {
+  const [unit] = relative.units;
+  const length = roundBelow(BAR / pixel / unit.si);
+  return svg(
+    "g",
+    { class: "track-foot" },
+    words.map((text, k) => text && svg("text", { class: "tick on-line", x: 10, y: 16 * (k + 1) }, text)),
+    svg("svg", { viewBox: "-6 -94 100 100", preserveAspectRatio: "xMinYMax" }, svg("path", { class: "bar-line", d: `M0 -3v6M0 0h${length * unit.si * pixel}m0 -3v6` })),
+    svg("svg", { y: "100%" }, svg("text", { class: "label on-line", x: 10, y: -20 }, `${length} ${unit.symbol}`)),
+    svg(
+      "svg",
+      { x: "100%", y: "100%" },
+      svg("g", { transform: `translate(-26 -26) rotate(${-plan.downslope_deg})` }, svg("path", { class: "arrow", d: "M-14 0H14M6 -4L14 0L6 4" })),
+      svg("text", { class: "tick on-line end-at", x: -8, y: -48 }, "downslope"),
+    ),
   );
 }
