@@ -39,11 +39,14 @@ _ENDS = {"least": "Smallest", "greatest": "Largest"}
 def controls(opened: OpenProject) -> Mapping[str, Any]:
     """Return the sliders and choices of a workbook for the page."""
     sliders = [item for item in _sliders(opened.sheet) if _is_offered(opened, item)]
-    return {"sliders": [_stopped(opened, item) for item in sliders], "choices": _choices(opened)}
+    return {
+        "sliders": [_stopped(opened, item) for item in sliders],
+        "choices": list(_choices(opened)),
+    }
 
 
 def shown(opened: OpenProject) -> Mapping[str, str]:
-    """Return the resulting values of the workbook."""
+    """Return what the sliders come to in the workbook, as texts beside them."""
     data = opened.sheet.project
     return {
         "friction": _grouped(data.arrays, lambda array: mu_words(array.friction)),
@@ -51,9 +54,6 @@ def shown(opened: OpenProject) -> Mapping[str, str]:
         "intensity": _factors(opened.shaking.motions),
         "s_ds": f"{number(data.site.s_ds, 3)} g",
         "clearance": _clearances(data),
-        "polarity": ", ".join(dict.fromkeys(row.polarity.value for row in data.motions)),
-        "rule_set": data.site.rule_set.value,
-        "units": data.project.units_first.value,
     }
 
 
@@ -68,7 +68,7 @@ def check(opened: OpenProject, values: Values) -> None:
         slider = sliders.get(control)
         if slider and (not has_target or target in slider["real"]["targets"]):
             span = slider["least"], slider["greatest"]
-            if not _is_number(value) or not span[0] <= float(value) <= span[1]:
+            if isinstance(value, str) or not span[0] <= value <= span[1]:
                 place = f" of {target}" * bool(has_target)
                 accepted = f"enter a number from {span[0]:g} to {span[1]:g}"
                 why = "".join(f" ({text})" for text in slider["stops"].values())
@@ -82,55 +82,46 @@ def check(opened: OpenProject, values: Values) -> None:
         raise InputError(wrong)
 
 
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
 def _sliders(sheet: Sheet) -> Iterator[dict[str, Any]]:
     arrays, us_first = sheet.project.arrays, sheet.project.us_first
     mus = [row[name] for row in sheet.inputs["arrays"] for name in MUS if row.get(name)]
     # The cell of a coefficient accepts no more than MOST_MU.
     most_mu = math.floor(100.0 * min(_MOST, MOST_MU / max(mus, default=1.0))) / 100.0
-    s_ds = _real("S_DS", "g", 3, {}, of_all=sheet.project.site.s_ds)
-    yield _slider("friction", "Friction", "×", (0.5, most_mu, 0.01), 1.0,
+    s_ds = _real("S_DS", "g", 3, {}) | {"all": sheet.project.site.s_ds}
+    yield _slider("friction", "Friction", "×", (0.5, most_mu, 0.01),
                   "Factor on every friction coefficient. Velocity-dependent friction is scaled as "
                   "a whole.",
                   _real("μ", "", 3, {array.id: array.mu for array in arrays}))  # fmt: skip
-    yield _slider("slope", "Slope", "°", (-_TURN_DEG, _TURN_DEG, 0.1), 0.0,
+    yield _slider("slope", "Slope", "°", (-_TURN_DEG, _TURN_DEG, 0.1),
                   "Added to the slope of every array; no slope is less than 0.",
                   _real("Slope", "°", 2, {a.id: math.degrees(a.slope_rad) for a in arrays})
                   )  # fmt: skip
     has_motions = bool(sheet.project.motions)
     if has_motions:
-        yield _slider("intensity", "Intensity", "×", (_LEAST, _MOST, 0.02), 1.0,
+        yield _slider("intensity", "Intensity", "×", (_LEAST, _MOST, 0.02),
                       "Factor on all motions, and on S_DS where both change together.",
                       s_ds | {"with_choice": {"together": "yes"}})  # fmt: skip
     apart = {"together": "no"} if has_motions else {}
-    yield _slider("s_ds", "S_DS", "×", (_LEAST, _MOST, 0.02), 1.0,
+    yield _slider("s_ds", "S_DS", "×", (_LEAST, _MOST, 0.02),
                   "Factor on S_DS alone.", s_ds) | {"with_choice": apart}  # fmt: skip
     unit, size = ("in", INCH_M) if us_first else ("mm", 1e-3)
     gaps = {str(n): row.provided_m / size for n, row in enumerate(sheet.project.clearances, 1)}
     beside = {"all": None, "is_beside": True, "with_choice": {"clearance": 0.0}}
-    yield _slider("clearance", "Clearance", unit, _TRIM[us_first], 0.0,
+    yield _slider("clearance", "Clearance", unit, _TRIM[us_first],
                   "Trim arrays: moves every side of every rectangular array inward by this amount. "
                   "Clearances are updated from the plan.",
                   _real("Provided", unit, 1 if us_first else 0, gaps) | beside)  # fmt: skip
 
 
-def _real(
-    symbol: str, unit: str, digits: int, targets: Mapping[str, float], of_all: float | None = None
-) -> dict[str, Any]:
-    """Return the quantity that a slider changes, as the workbook has it: of each target, or one."""
-    values = set(targets.values())
+def _real(symbol: str, unit: str, digits: int, targets: Mapping[str, float]) -> dict[str, Any]:
+    """Return the quantity that a slider changes, as the workbook has it of each target."""
+    values = {*targets.values()}
     return {
-        "symbol": symbol,
-        "unit": unit,
-        "digits": digits,
-        "targets": targets,
-        "all": values.pop() if len(values) == 1 else of_all,
+        "symbol": symbol, "unit": unit, "digits": digits, "targets": targets,
+        "all": values.pop() if len(values) == 1 else None,
         "is_beside": False,  # whether the value of a target is beside that of all
         "with_choice": {},
-    }
+    }  # fmt: skip
 
 
 def _slider(
@@ -138,14 +129,14 @@ def _slider(
     label: str,
     unit: str,
     span: tuple[float, float, float],
-    start: float,
     words: str,
     real: Mapping[str, Any],
 ) -> dict[str, Any]:
     least, greatest, step = span
     return {
         "id": name, "label": label, "unit": unit, "least": least, "greatest": greatest,
-        "step": step, "typed": start, "help": words, "stops": {}, "real": real,
+        "step": step, "typed": 1.0 if unit == "×" else 0.0, "help": words, "stops": {},
+        "real": real,
     }  # fmt: skip
 
 
@@ -184,47 +175,38 @@ def _is_offered(opened: OpenProject, slider: Mapping[str, Any]) -> bool:
     return opened.sheet.addresses.keys() >= typed(opened.sheet, opened.scales, values).keys()
 
 
-def _choices(opened: OpenProject) -> Sequence[Mapping[str, Any]]:
+def _choices(opened: OpenProject) -> Iterator[Mapping[str, Any]]:
     sheet = opened.sheet
     # Motions may differ: then the workbook has no single choice, and a blank one stands for it.
-    polarities = list(dict.fromkeys(row["polarity"] for row in sheet.inputs["motions"]))
-    has_cells = bool(polarities) and all(
-        Place("motions", i, "polarity") in sheet.addresses for i in range(len(opened.by_motion))
-    )
-    return [
-        *([_choice("together", "Scale S_DS with the motions", "yes", {"yes": "Yes", "no": "No"},
-                   "Whether the intensity slider also scales S_DS.")] if polarities else []),
-        *([_choice("polarity", "Polarity", polarities[0] if len(polarities) == 1 else "",
-                   ({} if len(polarities) == 1 else {"": "as in the workbook"})
-                   | {p.value: p.value for p in Polarity},
-                   "Polarities in which each horizontal component is run.")] if has_cells else []),
-        _rule_sets(opened),
-        *([_choice("units", "Primary units", sheet.inputs["project"][0]["units_first"],
-                   {UnitsFirst.US.value: "in", UnitsFirst.SI.value: "mm"},
-                   "Of the page, the package and the workbook.")]
-          if UNITS_FIRST in sheet.addresses else []),
-    ]  # fmt: skip
+    first, *others = dict.fromkeys(row["polarity"] for row in sheet.inputs["motions"]) or ("",)
+    if first:
+        yield _choice("together", "Scale S_DS with the motions", "yes", {"yes": "Yes", "no": "No"},
+                      "Whether the intensity slider also scales S_DS.")  # fmt: skip
+    places = (Place("motions", i, "polarity") for i in range(len(opened.by_motion)))
+    if first and all(place in sheet.addresses for place in places):
+        yield _choice("polarity", "Polarity", "" if others else first,
+                      ({"": "as in the workbook"} if others else {})
+                      | {p.value: p.value for p in Polarity},
+                      "Polarities in which each horizontal component is run.")  # fmt: skip
+    rules = _choice("rule_set", "Rule set", sheet.project.site.rule_set.value,
+                    {rule.value: rule.value for rule in RuleSetName},
+                    "The provisions to compare with.")  # fmt: skip
+    for option in rules["options"]:
+        option["why_not"] = _why_not(opened, {"rule_set": option["value"]})
+    yield rules
+    if UNITS_FIRST in sheet.addresses:
+        yield _choice("units", "Primary units", sheet.inputs["project"][0]["units_first"],
+                      {UnitsFirst.US.value: "in", UnitsFirst.SI.value: "mm"},
+                      "Of the page, the package and the workbook.")  # fmt: skip
 
 
 def _choice(
     name: str, label: str, start: str, options: Mapping[str, str], words: str
 ) -> dict[str, Any]:
     return {
-        "id": name,
-        "label": label,
+        "id": name, "label": label, "typed": start, "help": words,
         "options": [{"value": v, "label": text, "why_not": ""} for v, text in options.items()],
-        "typed": start,
-        "help": words,
-    }
-
-
-def _rule_sets(opened: OpenProject) -> Mapping[str, Any]:
-    start = opened.sheet.project.site.rule_set.value
-    names = {rule.value: rule.value for rule in RuleSetName}
-    choice = _choice("rule_set", "Rule set", start, names, "The provisions to compare with.")
-    for option in choice["options"]:
-        option["why_not"] = _why_not(opened, {"rule_set": option["value"]})
-    return choice
+    }  # fmt: skip
 
 
 def _why_not(opened: OpenProject, values: Values) -> str:

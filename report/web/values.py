@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from report.project.model.array import Array, coefficients, slope_rad
+from report.project.model.array import coefficients, slope_rad
 from report.project.model.choices import Scaling, SlopeUnit
 from report.project.model.input_rows import Place
 from report.project.model.shapes import SIDES, Rectangle, Shape, gap_m
@@ -129,7 +129,10 @@ def _trim(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
     before: dict[str, Shape] = {row.id: row.placed for row in project.objects if row.placed}
     before |= {array.id: array.shape for array in project.arrays}
     after = dict(before)
-    for index, array in trimmed(sheet) if trim_m else ():
+    for index, array in enumerate(project.arrays if trim_m else ()):
+        # Others have no cell for each side.
+        if not isinstance(array.placed, Rectangle):
+            continue
         x0, x1, y0, y1 = (getattr(array, side) for side in SIDES)
         places = [Place("arrays", index, side) for side in SIDES]
         moved = (x0 + trim_m, x1 - trim_m, y0 + trim_m, y1 - trim_m)
@@ -147,12 +150,6 @@ def _trim(sheet: Sheet, values: Values) -> Iterator[tuple[Place, Typed]]:
         place = Place("clearances", index, "provided_m")
         if trim_m or more:
             yield place, _in_cell(sheet, place, max(row.provided_m + more, 0.0))
-
-
-def trimmed(sheet: Sheet) -> list[tuple[int, Array]]:
-    """Return the arrays that are rectangles with a cell for each side, with their rows."""
-    rows = enumerate(sheet.project.arrays)
-    return [(index, row) for index, row in rows if isinstance(row.placed, Rectangle)]
 
 
 def _in_cell(sheet: Sheet, place: Place, value: float) -> float:
