@@ -110,8 +110,8 @@ def read_map(path: Path, unit_m: float) -> Any:
 def _repeated(rows: Sequence[tuple[int, float, float, float]]) -> Iterator[str]:
     """Yield an error for blocks that two lines have at one location: drawn twice, or a pile."""
     lines: dict[tuple[float, float, float], int] = {}
-    for line, *where, blocks in rows:
-        first = lines.setdefault((*where, blocks), line)
+    for line, x, y, blocks in rows:
+        first = lines.setdefault((x, y, blocks), line)
         if first != line and blocks > 0.0:
             remedy = "delete one, or enter all blocks at one location on one line"
             yield f"line {line} is equal to line {first}; {remedy}"
