@@ -10,6 +10,7 @@ from __future__ import annotations
 import datetime as dt
 import gc
 import logging
+import re
 import sys
 import tempfile
 import warnings
@@ -33,6 +34,9 @@ VARIANT = "pdf/a-3a"
 _NO_DATE = dt.datetime(1980, 1, 1)
 # Of addresses of the files of the template folder.
 _SCHEME = "shipped:"
+# Ratios and units that no line breaks behind their stroke, unlike the path of a file.
+_WHOLE = re.compile(r"(\b(?:D/(?=C\b)|N/(?=W\b)|V/(?=N\b)|(?:in|mm)/(?=s\b)))")
+_JOINED = "\\1\u2060"  # a word joiner: drawn as nothing, and not in the text of the PDF
 
 
 def lay_out(
@@ -88,9 +92,15 @@ def _laid_out(
 
 
 def _parsed(tree: ElementTree.Element) -> Any:
-    """Return a parsed document for the renderer."""
+    """Return a parsed document for the renderer, with the joints that its lines need."""
     from cssselect2 import ElementWrapper
     from weasyprint import HTML
+
+    for element in tree.iter():
+        if element.text and element.tag != "style":
+            element.text = _WHOLE.sub(_JOINED, element.text)
+        if element.tail:
+            element.tail = _WHOLE.sub(_JOINED, element.tail)
 
     class Parsed(HTML):  # type: ignore[misc]
         """A document that is not parsed again: a thirtieth of the time of a report."""

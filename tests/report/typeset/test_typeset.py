@@ -51,6 +51,14 @@ def test_a_picture_is_drawn_with_its_words_and_broken_markup_is_an_error():
         lay_out('<html lang="en-US"><title>T</title><p>One page of text.</html>')
 
 
+def test_no_line_ends_within_a_ratio_or_a_unit_and_a_reader_finds_them_as_they_are():
+    sentence = "<p style='width: {}pt'>clearance (D/C 1.15) at 0.00 mm/s (0.00 in/s), least N/W</p>"
+    pdf = lay_out(page("".join(sentence.format(width) for width in range(40, 130, 2))))
+    text = "\n".join(sheet.extract_text() for sheet in PdfReader(io.BytesIO(pdf)).pages)
+    assert "/\n" not in text
+    assert text.count("D/C") == text.count("mm/s") == text.count("in/s") == text.count("N/W") == 45
+
+
 PROGRAM = """
 import gc, sys
 from report.typeset.pdf import lay_out
