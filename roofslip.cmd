@@ -10,6 +10,8 @@ rem Python would read the name of a folder with accents from .venv in another co
 rem it compiles when it first imports a module. Matrices are small: more threads are slower.
 set "PYTHONPATH=%here%"
 set "PYTHONHOME="
+set "PYTHONPLATLIBDIR="
+set "PYTHONINSPECT="
 set "PYTHONDONTWRITEBYTECODE="
 set "PYTHONUTF8=1"
 set "OPENBLAS_NUM_THREADS=1"

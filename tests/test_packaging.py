@@ -251,7 +251,7 @@ TOOLS = (
 NOTING = """#!/bin/sh
 for last; do :; done
 echo "$(basename -- "$0") $*" >>"$ROOM/seen"
-others=${PYTHONHOME-}${UV_SYSTEM_PYTHON-}${UV_PYTHON-}${PIP_TARGET-}
+others=${PYTHONHOME-}${PYTHONINSPECT-}${PYTHONPLATLIBDIR-}${UV_SYSTEM_PYTHON-}${UV_PYTHON-}${PIP_TARGET-}
 echo "$PWD: ${PYTHONPATH-no path} $others" >>"$ROOM/where"
 [ "$(basename -- "$0") $1" != "uv venv" ] || { mkdir -p "$last" && cp -R "$ROOM/bin" "$last"; }
 """
@@ -489,7 +489,8 @@ def test_the_launcher_takes_nothing_from_where_it_is_called(tmp_path):
     """Tools of the set-up take modules and settings of the current folder, and so does a path."""
     folder, here = launcher(tmp_path), tmp_path / "here"
     here.mkdir()
-    calls_of(folder, cwd=here, env={"PYTHONPATH": f"{ROOT}:", "PYTHONHOME": "/opt/other"})
+    others = {"PYTHONHOME": "/opt/other", "PYTHONINSPECT": "1", "PYTHONPLATLIBDIR": "lib32"}
+    calls_of(folder, cwd=here, env={"PYTHONPATH": f"{ROOT}:", **others})
     *set_up, last = (folder.parent / "where").read_text().splitlines()
     assert (set(set_up), last) == ({f"{folder}: no path "}, f"{here}: no path ")
 

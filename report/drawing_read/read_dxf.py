@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import Path
@@ -43,10 +43,8 @@ MAX_CURVE_POINTS = 500_000
 # fractions kept it busy without end.
 MAX_LETTERS = 500_000
 
-# Largest distance [m] of an arc from the chords that it is read as.
-SAGITTA_M = 0.003
-# Largest distance [m] between the ends of open lines that are joined.
-JOIN_M = 0.005
+SAGITTA_M = 0.003  # largest distance [m] of an arc from the chords that it is read as
+JOIN_M = 0.005  # largest distance [m] between the ends of open lines that are joined
 
 _TEXTS = ("TEXT", "MTEXT", "ATTRIB")
 
@@ -332,39 +330,56 @@ class _Reader:
             _check_expanded(self.blocks)
             says = (name or outer.name, heights or outer.heights)
             block = _Block(self.blocks, depth, handle, *says)
-            before = len(self.drawing.lines)
+            before = len(self.drawing.lines), len(self.drawing.texts)
             for entity in copy.virtual_entities():
                 # Layer 0 within a block is the layer that the block is put on.
                 if entity.dxf.get("layer", "0") == "0":
                     entity.dxf.layer = layer
                 self.take(entity, block)
             if clip and count == 1:
-                self._clip_off(before, clip)
+                self._clip_off(before, block.number, clip)
         if clip:
             crossed = "read whole where the clip crosses a line"
             return f"a block that is clipped, and {crossed}: {quoted_name}"
         return ""
 
-    def _clip_off(self, first: int, clip: _Clip) -> None:
-        """Skip the lines of a block that its clip hides completely."""
+    def _clip_off(self, before: tuple[int, int], first_block: int, clip: _Clip) -> None:
+        """Skip what a block and those within it have that its clip hides completely."""
         path, is_inverted = clip
-        area, lines = shapely.Polygon(path).buffer(0.0), self.drawing.lines[first:]
-        del self.drawing.lines[first:]
-        for line in lines:
-            shape = shapely.LinearRing(line.shape.points)
-            if area.contains(shape) if is_inverted else not area.intersects(shape):
+        area, (first_line, first_text) = shapely.Polygon(path).buffer(0.0), before
+
+        def is_off(shape: Any) -> bool:
+            return bool(area.contains(shape) if is_inverted else not area.intersects(shape))
+
+        def shown(lines: Sequence[DrawnOutline]) -> Iterator[DrawnOutline]:
+            for line in lines:
+                if is_off(shapely.LineString([*line.shape.points, line.shape.points[0]])):
+                    self._leave(line.handle, line.layer, "clipped off")
+                else:
+                    yield line
+
+        self.drawing.lines[first_line:] = [*shown(self.drawing.lines[first_line:])]
+        texts = [t for t in self.drawing.texts[first_text:] if not is_off(shapely.Point(t.at))]
+        self.drawing.texts[first_text:] = texts
+        for (number, _), lines in self.opened.items():
+            if number >= first_block:
+                lines[:] = [*shown(lines)]
+        for key, (line, _, parts) in [*self.areas.items()]:
+            shown_parts = [part for part in parts if not is_off(part)]
+            if key[0] >= first_block and not shown_parts:
+                del self.areas[key]
                 self._leave(line.handle, line.layer, "clipped off")
-            else:
-                self.drawing.lines.append(line)
+            elif key[0] >= first_block:
+                parts[:] = shown_parts
 
     def _take_text(self, entity: Any, layer: str, kind: str) -> str:
         """Add a text that says something at a place; none is missed that does not."""
         self.letters += len(entity.text if kind == "MTEXT" else entity.dxf.text)
         limit(self.letters, MAX_LETTERS, "characters of text")
-        if kind == "MTEXT":
-            x, y, _ = entity.dxf.insert
-        else:  # in coordinates of its own, which are mirrored in a mirrored block
-            x, y, _ = entity.ocs().to_wcs(entity.get_placement()[1] or entity.dxf.insert)
+        placed = None if kind == "MTEXT" else entity.get_placement()[1]
+        at = placed or entity.dxf.insert
+        # The coordinates of a TEXT are its own, which are mirrored in a mirrored block.
+        x, y, _ = at if kind == "MTEXT" else entity.ocs().to_wcs(at)
         lines = lines_of_text(entity)
         if lines and math.isfinite(x) and math.isfinite(y):
             self.drawing.texts.append(

@@ -1,11 +1,14 @@
 """A drawing is read as it is shown: nothing hidden, nothing twice, no size that no roof has."""
 
+import math
+
 import pytest
 from ezdxf.xclip import XClip
 
 from fixtures.commands import errors_of, output_of, stdout_of
 from fixtures.dxf import BOX_FT, ROOF_FT, UNIT_FT, Sketch, plan
 from fixtures.marks import by_day
+from fixtures.project_parts import FT
 from fixtures.workbooks import blank
 from report.drawing_read.read_dxf import read_dxf
 from report.project.model.choices import UnitsFirst
@@ -102,6 +105,26 @@ def test_a_clipped_block_is_read_without_the_lines_that_are_hidden(
     assert names(found) == shown
     left = [] if shown else [("clipped off", "OBJECT")]
     assert reasons(found) == [*left, (CLIPPED, "OBJECT")]
+
+
+def test_texts_and_open_lines_and_hatches_that_a_clip_hides_are_not_read(tmp_path):
+    sketch = Sketch()
+    block = sketch.document.blocks.new("UNITS")
+    near, far = (((x, 0), (x + 8, 0), (x + 8, 10), (x, 10)) for x in (0, 20))
+    for ring in (near, far):
+        for ends in zip(ring, (*ring[1:], ring[0]), strict=True):
+            block.add_line(*ends)
+    block.add_text('GHOST HT 99"').set_placement((44, 5))
+    block.add_hatch().paths.add_polyline_path([(x + 60, y) for x, y in near], is_closed=True)
+    put = sketch.space.add_blockref("UNITS", (100, 20), dxfattribs={"layer": "OBJECT"})
+    XClip(put).set_block_clipping_path([(-1, -1), (10, 12)])
+    sketch.ring("OBJECT", ((140, 20), (148, 20), (148, 30), (140, 30)), "RTU-1")
+    found = plan(sketch.saved(tmp_path))
+    assert [(item.name, item.shape.bounds.x_from_m / FT) for item in found.objects] == [
+        ("RTU-1", pytest.approx(140)), ("OBJ-1", pytest.approx(100))
+    ]  # fmt: skip
+    assert all(math.isnan(item.height_m) for item in found.objects)
+    assert reasons(found) == [*[("clipped off", "OBJECT")] * 5, (CLIPPED, "OBJECT")]
 
 
 def test_closed_lines_in_a_layout_are_said_to_be_there(tmp_path):
