@@ -136,19 +136,17 @@ async def _example(request: Request) -> Response:
 
 async def _changed(request: Request, do: str) -> Response:
     """Open a copy of a project that a job changes: clearances of its plan, or cells as typed."""
-    request.state.asked = await receive_json(request)
-    return await _open_new(request, partial(_copy, do=do))
-
-
-async def _copy(request: Request, folder: Path, do: str) -> Path:
-    session, asked = session_of(request), request.state.asked
+    session, asked = session_of(request), await receive_json(request)
     current = session.workbook(asked.opened)
-    workbook = folder / "project" / current.name
-    await run_in_threadpool(copied, current, workbook.parent)
-    await session.ask(
-        {"do": do, "workbook": str(current), "to": str(workbook), "cells": json.dumps(asked.cells)}
-    )
-    return workbook
+
+    async def copy(_: Request, folder: Path) -> Path:
+        workbook = folder / "project" / current.name
+        await run_in_threadpool(copied, current, workbook.parent)
+        job = {"do": do, "workbook": str(current), "to": str(workbook)}
+        await session.ask({**job, "cells": json.dumps(asked.cells)})
+        return workbook
+
+    return await _open_new(request, copy)
 
 
 async def _filled(request: Request, folder: Path, do: str) -> Path:

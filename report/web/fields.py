@@ -62,13 +62,10 @@ def _row(book: OpenBook, title: str, cell: str) -> Mapping[str, Any] | None:
     header, columns = _headed(book, book.book[title], row, column)
     if row == header:
         return None
-    numbers = [
-        number
-        for number in columns
-        if header or not found_at(book, CellPosition(title, row, number)).is_blank
-    ]
-    if column not in numbers:
-        numbers = sorted([*numbers, column])
+    filled = (
+        n for n in columns if header or not found_at(book, CellPosition(title, row, n)).is_blank
+    )
+    numbers = sorted({column, *filled})
     place = numbers.index(column)
     # The first column names the row.
     numbers = [number for k, number in enumerate(numbers) if k == 0 or abs(k - place) <= _BESIDE]
