@@ -2,7 +2,9 @@
 
 import { html, set, svg } from "./make.js";
 
-const LOOK = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "vector-effect", "overflow", "paint-order", "opacity", "font-size", "font-weight", "font-style", "text-anchor", "marker-end", "visibility"];
+const LOOK = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "overflow", "paint-order", "opacity", "font-size", "font-weight", "font-style", "text-anchor", "marker-end", "visibility"];
+const STRETCHED = "[preserveAspectRatio=none]";
+const PAIR = /(-?[\d.]+)[ ,](-?[\d.]+)/g; // of the coordinates of a point
 const SHARPER = 2; // pixels of a PNG in one of the page
 const BUSY = '[aria-busy="true"]';
 const NOT_DRAWN = "button, select, input, label, .toolbar, .player, .plan-head, .visually-hidden, [id$=-keys]";
@@ -27,6 +29,7 @@ function drawing(panel) {
     const copy = one.cloneNode(true);
     const [from, to] = [one, copy].map((each) => [each, ...each.querySelectorAll("*")]);
     from.forEach((each, k) => look(each, to[k]));
+    to.filter((_, k) => from[k].matches(".clip *") && isBeside(from[k].getBoundingClientRect(), box)).forEach((each) => each.remove());
     set(copy, { x: box.x - x, y: box.y - y, width: box.width, height: box.height });
     all.append(copy);
   }
@@ -52,10 +55,24 @@ function fitted(width) {
   return { textLength: width, lengthAdjust: "spacingAndGlyphs" };
 }
 
+// Not all readers know lines that keep their width: what the page stretches is placed in pixels.
 function look(from, to) {
   const style = getComputedStyle(from);
   if (from instanceof SVGTextElement) set(to, fitted(from.getComputedTextLength()));
   set(to, Object.fromEntries(LOOK.map((name) => [name, style.getPropertyValue(name)]).filter(([, value]) => value)));
+  if (style.vectorEffect === "none") return;
+  const { a: across, d: up } = from.getScreenCTM();
+  const isStretched = from.parentElement.matches(STRETCHED);
+  to.setAttribute("stroke-width", parseFloat(style.strokeWidth) / (isStretched ? 1 : across));
+  for (const name of isStretched ? ["d", "points"].filter((one) => to.hasAttribute(one)) : []) {
+    to.setAttribute(name, to.getAttribute(name).replaceAll(PAIR, (_, x, y) => `${(x * across).toFixed(2)} ${(y * up).toFixed(2)}`));
+  }
+  if (from.matches(STRETCHED)) to.removeAttribute("viewBox");
+}
+
+// Whether a box has no part in another one.
+function isBeside({ left, right, width }, { left: from, right: to }) {
+  return width > 0 && (right < from || left > to);
 }
 
 async function painted(vector, drawn) {

@@ -1,7 +1,7 @@
 // Histories one above the other over one axis of time, with the value at a time in their headings. The server
 // sends values at the samples, or at the numbers of samples beside them, null where there is none.
 
-import { html, set, svg } from "./make.js";
+import { html, svg } from "./make.js";
 import { measured, tickText } from "./reading.js";
 import { axisUp, percent, ticks, within } from "./view-parts.js";
 
@@ -23,8 +23,7 @@ export function createPanels(panels, { seconds, slips }, shown = seconds) {
     runs.push(svg("svg", { width: `${percent(seconds, [0, shown])}%` }, content));
     return svg("svg", { class: "clip" }, runs.at(-1));
   };
-  const bands = slips.map(({ from_s: from, to_s: to }) => `M${from} 0H${to}V100H${from}Z`).join("");
-  const ground = () => [svg("path", { class: "slip-bands", d: bands }), times.map((time) => svg("line", { class: "hair", x1: time, x2: time, y2: 100 }))];
+  const ground = () => [svg("path", { class: "slip-bands", d: slips.map(bandOf).join("") }), svg("path", { class: "hair", d: times.map(upright).join("") })];
   const drawn = panels.map((panel) =>
     createPanel(panel, (...content) => run(svg("svg", { viewBox: `0 0 ${seconds} 100`, preserveAspectRatio: "none" }, ground(), content))),
   );
@@ -50,20 +49,29 @@ function createPanel({ title, units: [unit], series, least, most }, placed) {
   const values = series.map(() => html("span", { class: "value numbers" }));
   const looks = series.map(({ name, look }, k) => html("span", { class: "reading" }, sample(look), `${name} `, values[k]));
   const range = limits(series, unit, least, most);
-  const band = svg("rect", { class: "slip-picked", height: 100 });
+  const band = svg("path", { class: "slip-picked" });
   const curves = series.map((one) => curve(one, (value) => 100 - percent(value / unit.si, range)));
-  const cursor = svg("line", { class: "cursor", y2: 100 });
+  const cursor = svg("path", { class: "cursor" });
   const plot = svg("svg", { class: "plot", role: "img", "aria-label": `${title} in time` }, axisUp(range, 3.5, true), placed(band, curves.toReversed(), cursor));
   return {
     element: html("div", { class: "panel" }, html("div", { class: "panel-head" }, html("strong", {}, title), looks), plot),
     mark(time, slip) {
-      set(cursor, { x1: time, x2: time });
-      set(band, { x: slip?.from_s ?? 0, width: slip ? slip.to_s - slip.from_s : 0 });
+      cursor.setAttribute("d", upright(time));
+      band.setAttribute("d", slip ? bandOf(slip) : "");
       series.forEach((one, k) => {
         values[k].textContent = measured(valueAt(one, time), unit);
       });
     },
   };
+}
+
+// Points in pairs, so that a drawing that is saved can place them.
+function bandOf({ from_s: from, to_s: to }) {
+  return `M${from} 0L${to} 0L${to} 100L${from} 100Z`;
+}
+
+function upright(time) {
+  return `M${time} 0L${time} 100`;
 }
 
 // The range of an axis in a unit, with some room around the values.

@@ -455,10 +455,14 @@ def test_a_drawing_is_saved_as_svg_and_png_once_it_is_there(page, tab):
     name, vector = saved(page, save)
     assert len(held) == (tab != "plan")
     assert name.endswith(f"{tab}.svg")
-    texts = [
-        each.text for each in ElementTree.fromstring(vector).iter() if each.tag.endswith("text")
-    ]
+    drawn = list(ElementTree.fromstring(vector).iter())
+    texts = [each.text for each in drawn if each.tag.endswith("text")]
     assert {"plan": "PV-OLD", "contour": "Slope [deg]"}[tab] in texts
+    # A reader that stretches a drawing would stretch its lines.
+    stretched = (each for each in drawn if each.get("preserveAspectRatio") == "none")
+    assert [each.get("viewBox") for each in stretched] == [None] * (tab == "contour")
+    lines = {each.get("stroke-width") for each in drawn if "isoline" in each.get("class", "")}
+    assert lines == ({"1", "1.8"} if tab == "contour" else set())
     name, bytes_ = saved(page, lambda: page.click("#save-png"))
     wide, tall = (int.from_bytes(bytes_[at : at + 4], "big") for at in (16, 20))
     box = page.locator(f"#{tab}").bounding_box()
