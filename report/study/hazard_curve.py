@@ -25,7 +25,7 @@ from report.study.study_input import Intensity
 from report.text.counts import numbered
 from solver.bounds import ANNUAL_RATE, INTENSITY
 from solver.errors import InputError, raise_any
-from solver.formats.phrases import is_of_another
+from solver.formats.remarks import is_of_another, is_other_damping
 from solver.formats.source import open_source
 from solver.model import Floats
 from solver.studies.rates import HazardCurve
@@ -54,17 +54,20 @@ _OF_RATE = (
 _WORD = re.compile(r"[^\s_\[\](),;:]+")
 # In a line of text above them.
 _OF_OTHERS = re.compile(
-    r"\bPG[VD]\b|\bprobabilit|\breturn period|\bpoe\b|\d ?(?:yrs?|years)\b"
+    r"\bPG[VD]\b|\bprobabilit|\breturn period|\bpoe\b|\d[ -]?(?:yrs?|years?)\b|\bvertical\b|\bPFA\b"
     r"|\bP?SA[ _(@=T]*(?!1(?:\.0+)?(?![\d.]))\.?\d"
     # After a latitude, S is south.
-    r"|(?<![\d.])(?!1(?:\.0+)?[ -]?s)\d*\.?\d+[ -]?(?-i:s)(?:ec|econds?)?\b",
+    r"|(?<![\d.])(?!1(?:\.0+)?[ -]?s)(?:\d++(?:\.\d++)?+|\.\d++)[ -]?(?-i:s)(?:ec|econds?)?\b",
     re.IGNORECASE,
 )
 _SPECTRAL = re.compile(r"\bspectral\b|\bP?SA\b", re.IGNORECASE)
 _MEASURE = {False: "PGA [g]", True: "Sa(1 s) [g]"}
 _RATE = "annual rate [1/year] (1 / T of a return period T, -ln(1 - p) / n of p in n years)"
 
-_TWO = "enter intensity and annual rate in two columns, or the CSV of the USGS hazard tool"
+_TWO = (
+    "enter intensity and annual rate in two columns with a comma between them, or the CSV of the"
+    " USGS hazard tool"
+)
 
 
 def hazard_curves(sheet: StudySheet) -> tuple[HazardCurve, ...]:
@@ -129,6 +132,15 @@ def points_of(lines: Sequence[str], *, is_spectral: bool) -> list[tuple[float, f
     for row in rows[:first]:
         problems += _wrong_headings(row, is_spectral)
     raise_any(problems)
+    pairs = np.array(columns[first:])
+    # Rates become much smaller than intensities, so that columns in the other order are noticed.
+    is_curve = np.diff(pairs[:, 0]).min(initial=1.0) > 0.0 > np.diff(pairs[:, 1]).max(initial=-1.0)
+    if not first and is_curve and pairs[:, 0].min() < pairs[:, 1].min():
+        raise InputError(
+            f"has no heading, and {pairs[:, 0].min():g} in the first column, less than any number"
+            f" in the second; enter the heading {_MEASURE[is_spectral]},annual rate, and the"
+            " columns in this order"
+        )
     return [(values[0], values[1]) for values in columns[first:]]
 
 
@@ -142,7 +154,7 @@ def _wrong_headings(row: Sequence[str], is_spectral: bool) -> Iterator[str]:
         # too high.
         is_spectral_alone = not is_spectral and bool(_SPECTRAL.search(text))
         is_other = named == [not is_spectral] or is_spectral_alone
-        if is_other or is_of_another(text) or _OF_OTHERS.search(text):
+        if is_other or is_of_another(text) or is_other_damping(text) or _OF_OTHERS.search(text):
             yield f"has the heading '{text[:60]}'; enter {measure} and {_RATE}, or delete it"
         return
     for heading, known, accepted in zip(

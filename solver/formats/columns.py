@@ -62,6 +62,19 @@ def counting(table: Floats) -> list[int]:
     return [column for column in rising(table) if (np.diff(table[:, column]) == 1.0).all()]
 
 
+def numbered(table: Floats) -> list[int]:
+    """Indexes of the columns that number the lines: counting, or whole beside decimals."""
+    counts = counting(table)
+    is_whole = (table == np.rint(table)).all(axis=0)
+    if len(table) < _FEW or is_whole.all():
+        return counts
+    # Numbers of cards may begin anew, or fall. A column may be zeros, before the shaking, and whole
+    # times rise.
+    is_number = is_whole & table.any(axis=0)
+    is_number[[column for column in rising(table) if column not in counts]] = False
+    return [int(column) for column in np.flatnonzero(is_number)]
+
+
 def pairs(values: Floats, per_line: int) -> Floats | None:
     """Times and values, shape (n, 2), where nearly every second value across lines rises evenly."""
     # Two numbers per line are read as two columns.
@@ -78,12 +91,7 @@ def pairs(values: Floats, per_line: int) -> Floats | None:
 def remedy(table: Floats) -> str:
     """Return the remedy for a table of two or more columns without headings."""
     heading = f"a heading such as time_s,x_g{',y_g' * (table.shape[1] > 2)}"
-    if not (columns := rising(table)):
-        return (
-            f"enter {heading}, or put one on each line, or enter the values per line to motion"
-            f" convert (--values-per-line {table.shape[1]})"
-        )
-    if counts := counting(table):
+    if counts := numbered(table):
         which = ", ".join(str(column + 1) for column in counts)
         deletion = f"column {which} contains line numbers: delete it"
         if len(counts) > 1:
@@ -93,6 +101,11 @@ def remedy(table: Floats) -> str:
         remaining = np.delete(table, counts, axis=1)
         then = remedy(remaining) if remaining.shape[1] > 1 else "enter the time step dt"
         return f"{deletion}; then {then}"
+    if not (columns := rising(table)):
+        return (
+            f"enter {heading}, or put one on each line, or enter the values per line to motion"
+            f" convert (--values-per-line {table.shape[1]})"
+        )
     if same := [i for i in columns[1:] if np.array_equal(table[:, i], table[:, columns[0]])]:
         return f"columns {columns[0] + 1} and {same[0] + 1} are the same: {SIDE_BY_SIDE}"
     which = ", ".join(str(column + 1) for column in columns)

@@ -27,6 +27,7 @@ from solver.formats.plain_lines import (
     rows_of,
     separator_of,
 )
+from solver.formats.remarks import check_units_alone
 from solver.formats.source import Source, Stated
 from solver.records.record import quoted, unit_size
 
@@ -156,6 +157,7 @@ def _check_first(source: Source, first: int, fields: Sequence[str]) -> None:
                 f"{source.at(index)}: found {quoted(plain)}, a factor for the numbers below it;"
                 " multiply them all by it, and delete the line"
             )
+    check_units_alone(source, source.lines[: first + 1])
     words = [field for field in fields if field.strip(" *")]
     if any(is_heading(word) or _LETTERS.match(word) for word in words):
         problem = likely_text(source.lines) or (

@@ -139,7 +139,7 @@ def free_values(source: Source, block: Block) -> Floats:
 
 def _check_halved(source: Source, rows: Sequence[tuple[int, str]]) -> None:
     """Reject a truncated line of one value: it alone has fewer digits than all others."""
-    digits = [_digits(row.strip().translate(_FORTRAN)) for _, row in rows]
+    digits = [number_digits(row.strip().translate(_FORTRAN)) for _, row in rows]
     counts = Counter(digits)
     # Programs that drop zeros at the end print all sorts of lengths: they say nothing.
     if len(counts) != 2 or min(counts.values()) > 1 or len(digits) < COMPARED // 3:
@@ -168,13 +168,13 @@ def is_cut_short(fields: Sequence[str]) -> bool:
 
     They are the last ones of a file, at most `COMPARED`.
     """
-    *before, last = map(_digits, fields)
+    *before, last = map(number_digits, fields)
     # Whole numbers have no decimals that a cut could take.
     is_even = len(before) >= _ENOUGH and len({*before}) == 1 and before[0][0] > 0
     return is_even and last < before[0]
 
 
-def _digits(field: str) -> tuple[int, int]:
+def number_digits(field: str) -> tuple[int, int]:
     """Return the number of decimals and of digits in the exponent."""
     mantissa, _, exponent = field.upper().partition("E")
     return len(mantissa.partition(".")[2]), len(exponent.lstrip("+-"))

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -22,7 +21,7 @@ from solver.records.record import is_other_unit, is_raw, unit_size
 # Also as loggers of other languages head them.
 _TIMES = {"t", "time", "times", "zeit", "tiempo", "temps", "tempo", "sec", "secs", "seconds"}
 SECONDS = (
-    dict.fromkeys(("s", "sec", "secs", "second", "seconds"), 1.0)
+    dict.fromkeys(("s", "sec", "sec.", "secs", "seg", "second", "seconds"), 1.0)
     | dict.fromkeys(("ms", "msec", "msecs", "millisecond", "milliseconds"), 0.001)
     | dict.fromkeys(("min", "mins", "minute", "minutes"), 60.0)
 )
@@ -35,7 +34,9 @@ _INDEXES = {
 _NOT_ACCELERATIONS = re.compile(
     r"(?<![a-z])(?:vel|veloc|velocity|velocities|disp|displ|displacements?|temp|temperature"
     r"|batt|battery|voltage|gyro|gyroscope|gyr|rotation|mag(?=[ _]?[xyz]\b)|magnet[a-z]*|pressure"
-    r"|humidity|altitude|latitude|longitude|pitch|roll|yaw|quat[a-z]*|strain|jerk)(?![a-z])",
+    r"|humidity|altitude|latitude|longitude|pitch|roll|yaw|quat[a-z]*|strain|jerk|drift|husid|energy"
+    r"|speed|power|moment|force|geschwindigkeit|verschiebung|vitesse|d[eé]placement|velocit[aà]"
+    r"|velocidad|desplazamiento|spostamento)(?![a-z])|(?<!加)速度|位移|変位",
     re.IGNORECASE,
 )
 # The length of the vector, as loggers write it beside its components.
@@ -46,6 +47,13 @@ _MAGNITUDE = re.compile(
 )
 ACCELERATION = re.compile(r"(?<![a-z])ac(?:c|el)", re.IGNORECASE)
 
+# acc*1000, 10*acc, acc_x1000, acc (g)/9.81, acc/PGA: what the values are in is not known.
+_HAS_FACTOR = re.compile(
+    r"[*×]\s?\d|\d\s?[*×]|(?<=[_\s(,)\]])x\s?10+(?!\d)|(?<![a-z\d])(?:1e-?\d|10\s?\^|10-\d)"
+    r"|[)\]]\s*/\s*\d|/\s?pga\b",
+    re.IGNORECASE,
+)
+
 _ABSCISSAS = re.compile(
     r"(?:freq|frequency|frequencies|periods?|tn)(?![a-z])|.*\bhz\b", re.IGNORECASE
 )
@@ -55,32 +63,11 @@ _SPECTRAL = re.compile(
 
 _BRACKETED = re.compile(r"([^\[(]*)[\[(]([^\])]*)[\])]\s*")
 _IN = re.compile(r"(.*\S)\s+in\s+(\S+)", re.IGNORECASE)
+_BEHIND = (re.compile(r"([^,]*[^,\s])\s*,\s*(\S+)"), re.compile(r"(.*[^\W\d_]\)?)\s*/\s*(\S+)"))
 _WORD = re.compile(r"[^\s\[(]+(?:\s?[\[(][^\])]*[\])])?")
 
-# The peak of a velocity, or that of shear waves, tells of the record or the site, as does a
-# quantity with its value.
-_SPECTRUM = re.compile(
-    r"\W*(?:freq|frequency|periods?)(?![a-z])|.*(?<![a-z])(?:spectr(?:al|um|a)|p?s_?a)(?![a-z])",
-    re.IGNORECASE,
-)
-_QUANTITY = re.compile(
-    r"\W*(?:(?!peak|max|wave|shear)\w+\W+){0,3}?(vel|velocit(?:y|ies|[aà])|velocidad(?:es)?"
-    r"|vitesses?|geschwindigkeit(?:en)?|disp|displacements?|d[eé]placements?|desplazamientos?|jerk)"
-    r"(?:\W+(?:time|history|histories|series|record|trace|motion|data|in)\b|\W*[\[(,;]|\W*$)",
-    re.IGNORECASE,
-)
-
-# Of all values below a line.
-_OTHERWISE = re.compile(
-    r"(?:%|\bpercent\b)\s*(?:of\s+)?g\b|\bin (?:%|percent)(?!\s*damp)|\bp?s[vd]\b"
-    r"|(?<!\w)[x×*]\s*(?:10\s*\^|1e-?\d|\d*\.\d+\s*(?:\)|$))|\b1e-\d|\b(?:ln|log(?:10)?)\s*\("
-    r"|\bnormali[sz]ed\b|\b(?:velocity|displacement) spectr|\bmultipl(?:y|ied) by\b"
-    r"|percentile|fractile|\bper (?:century|month|day|1,?000)|\bnon-?exceed",
-    re.IGNORECASE,
-)
-
 _IN_BRACKETS = re.compile(r"[\[(]([^\])]{1,16})[\])]")
-_UNITS_OF = re.compile(
+UNITS_OF = re.compile(
     r"\bunits?\b[\s:=]*+(?:(?:of|in|are|is)\b(?!/)[\s:=]*+)*+([^\s,;()\[\]]+)", re.IGNORECASE
 )
 # Between marks, as in `Acceleration, cm/s2`; behind a number it is of that.
@@ -94,23 +81,33 @@ _IN_PROSE = re.compile(r"\bin\s+([^\s,;()\[\]]+)", re.IGNORECASE)
 _VALUE = r"([+-]?(?:\d++(?:\.\d*+|,\d++)?+|\.\d++)(?:[eE][+-]?\d++)?(?:/\d++)?)"
 _HERTZ = r"(k?hz|sps|samples?(?: per |/)s(?:ec|econd)?)\b"
 _RATE = re.compile(
-    r"\b(?:sampl(?:ing|e)[ _]?(?:rate|freq(?:uency)?)|frecuencia de muestreo|fs)\s*+"
+    r"(?<![a-z])(?:sampl(?:ing|e)[ _]?(?:rate|freq(?:uency)?)|frecuencia de muestreo|abtastrate|fs"
+    r"|sampling|sr|sps|samples?(?: per |/)s(?:ec(?:ond)?)?|采样(?:频?率)|サンプリング周波数)\s*+"
     rf"(?:[\[(]\s*+{_HERTZ}\s*+[\])]\s*+)?+([:=]?)\s*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+(?:{_HERTZ})?+"
-    r"(?:([a-z]++)(?!\^?-))?+",
+    r"(?:([a-z]++)(?!\^?-))?+(\s*+$)?+",
+    re.ASCII | re.IGNORECASE,
+)
+# 200 Hz of a filter are no rate, but 200 samples per second are.
+_SAMPLED = re.compile(
+    rf"\b(?:rate|sampled|digiti[sz]ed|recorded)\b[^\d;,.]{{0,25}}{_VALUE}\s*+{_HERTZ}"
+    rf"|(?<![\w.,/]){_VALUE}\s*+(sps|samples?(?: per |/)s(?:ec|econd)?)\b",
     re.ASCII | re.IGNORECASE,
 )
 _STEP = re.compile(
-    r"\b(?:dt|delta[ _]t|(?:time|sampling|sample)[ _](?:step|interval|period|increment)"
-    r"|intervals? of|intervalo de muestreo(?:, C\d-C\d)?)"
+    r"(?<![a-z])(?:dt|Δt|delta[ _]t"
+    r"|(?:time|sampling|sample)[ _-]?(?:step|interval|period|increment)|intervals? of|spaced at"
+    r"|intervalo de muestreo(?:, C\d-C\d)?|采样间隔|時間間隔|时间间隔"
+    r"|(delta|step|interval|paso|passo|pas de temps|zeitschritt|digiti[sz]ed at|points at))"
     r"(?:_([a-zµμ]++)|\s*+[\[(]\s*+([a-zµμ]++)\s*+[\])])?+"
     rf"\s*+([:=]?)[\s/]*+(?:(?:is|of)\b)?\s*+{_VALUE}\s*+([a-zµμ]*)",
     re.IGNORECASE,
 )
-_FACTOR = re.compile(
-    r"\b(?:scal(?:e|ing)|conversion|calibration|multiplication|amplitude)[ _]factor\b"
-    r"[^:=\d]{0,20}[:=]?\s*+(\d++(?:\.\d*+)?(?:[eE][+-]?\d+)?)(?![\d/(])",
+_INTERVAL = re.compile(
+    rf"(?<![\w.,/]){_VALUE}\s*+([a-z]{{1,12}})\.?[ -](?:(?:time|sampling)[ -])?"
+    r"(?:step|interval|increment)s?\b",
     re.ASCII | re.IGNORECASE,
 )
+_LONGEST_STEP_S = 0.1  # of a word such as delta, which may be a distance
 _GROUPED = re.compile(r"[1-9]\d{0,2},\d{3}", re.ASCII)  # one, or a thousand
 _COUNT = re.compile(
     r"\b(?:(?:number|no\.?) of (?:data )?(?:points|samples|values)|npts)\b"
@@ -156,6 +153,9 @@ def parse(text: str) -> Heading:
     text = text.strip().strip("\"'").strip()
     name, unit = _split(text)
     kind, seconds = _kind(name, unit)
+    if _HAS_FACTOR.search(name):
+        unit, seconds = text, math.nan
+        kind = Kind.TIME if kind is Kind.TIME else Kind.OTHER
     return Heading(text=text, name=name, kind=kind, unit=unit, seconds=seconds)
 
 
@@ -208,13 +208,19 @@ def _split(text: str) -> tuple[str, str]:
         match = pattern.fullmatch(text)
         if match and (_is_unit(match[2], bracketed=True) or _is_time(match[1])):
             return match[1].strip(), match[2].strip()
+    # acc/gal or acc, g: without a unit of acceleration, it may be a direction.
+    for match in filter(None, (pattern.fullmatch(text) for pattern in _BEHIND)):
+        if not math.isnan(unit_size(match[2])):
+            return match[1].strip(), match[2]
     # The first underscore with a unit behind it: a unit may have underscores, as m_s2.
     for place in (i for i, letter in enumerate(text) if letter == "_"):
         name, unit = text[:place], text[place + 1 :]
         if _is_unit(unit, bracketed=False) or (_is_time_unit(unit) and _is_time(name)):
             return name, unit
     # A unit alone, such as `min`; shorter ones may be directions: NS, S.
-    is_unit = text.lower() == "ms" or (len(text) > 2 and _is_time_unit(text))
+    is_unit = text.lower() == "ms" or (
+        len(text) > 2 and (_is_time_unit(text) or not math.isnan(unit_size(text)))
+    )
     return (text, text) if is_unit and not _is_time(text) else (text, "")
 
 
@@ -252,38 +258,9 @@ def _kind(name: str, unit: str) -> tuple[Kind, float]:
     return Kind.OTHER if unit else Kind.UNSAID, 1.0
 
 
-def is_of_a_spectrum(line: str) -> bool:
-    """Whether a line of text states that the numbers below it are a spectrum."""
-    return bool(_SPECTRUM.match(line))
-
-
-def is_of_acceleration(line: str) -> bool:
-    """Whether a line of text names accelerations or a unit of theirs."""
-    return bool(ACCELERATION.search(line) or units_in(line))
-
-
-def other_quantity(line: str) -> str:
-    """Quantity that a line of text states for the numbers below, if not acceleration; else ""."""
-    quantity = _QUANTITY.match(line)
-    # A length alone may be a word, or the unit of the site's coordinates.
-    units = (unit for unit in _UNITS_OF.findall(line) if "/" in unit and is_other_unit(unit))
-    return quantity[1].lower() if quantity else next(units, "")
-
-
-def is_of_another(line: str) -> bool:
-    """Whether a line of text says another quantity than acceleration, or another unit than g.
-
-    So says one of a factor, a logarithm, a percentile or a ratio of the values below it.
-    """
-    if _OTHERWISE.search(line):
-        return True
-    sizes = {unit_size(unit) for unit in units_in(line)}
-    return bool(sizes - {unit_size("g")} or other_quantity(line))
-
-
 def units_in(line: str) -> list[str]:
     """Units of acceleration stated in a line of text."""
-    places = [*_IN_BRACKETS.findall(line), *_UNITS_OF.findall(line), *_IN_PROSE.findall(line)]
+    places = [*_IN_BRACKETS.findall(line), *UNITS_OF.findall(line), *_IN_PROSE.findall(line)]
     named = [parse(word) for word in re.split(r"[\s,;]+", line)]
     places += [word for word in _BARE.findall(line) if "/" in word or word.lower() == "gal"]
     places += [heading.unit for heading in named if heading.kind is Kind.ACCELERATION]
@@ -301,26 +278,40 @@ def steps_in(source: Source, index: int, line: str) -> list[Stated]:
     steps: list[Stated] = []
     rate = _RATE.search(line)
     unit = (rate[5] or "").lower() if rate else ""
-    # A unit or a sign makes a rate of it; without either the number may belong to the prose.
-    if rate and (rate[1] or rate[2] or rate[4] or unit in SECONDS):
+    # A unit, a sign or the end of the line makes a rate of it; otherwise the number may belong to
+    # the prose.
+    if rate and (rate[1] or rate[2] or rate[4] or unit in SECONDS or rate[6] is not None):
         stated = _stated(source, index, rate[3])
         if unit in SECONDS:
             steps.append(_times(stated, SECONDS[unit]))
         elif stated.value > 0.0:
-            size = 1000.0 if "khz" in rate[0].lower() else 1.0
-            steps.append(Stated(value=1.0 / (size * stated.value), index=index))
+            steps.append(_per_second(stated, rate[0]))
+    elif match := _SAMPLED.search(line):
+        stated = _stated(source, index, match[1] or match[3])
+        steps += [_per_second(stated, match[0])] if stated.value > 0.0 else []
+    if (match := _INTERVAL.search(line)) and match[2].lower() in SECONDS:
+        return [*steps, _times(_stated(source, index, match[1]), SECONDS[match[2].lower()])]
     match = _STEP.search(line)
     if not match:
         return steps
-    before, after = (match[1] or match[2] or "").lower(), match[5].lower()
+    before, after = (match[2] or match[3] or "").lower(), match[6].lower()
     unit = before or after
+    stated = _stated(source, index, match[5])
+    if match[1] and not (after in SECONDS or (not unit and stated.value <= _LONGEST_STEP_S)):
+        return steps
     # A step of 5000 in microseconds must not be read as 5000 s.
     if unit in OTHER_TIMES:
         raise InputError(f"{source.at(index)}: found a step in {unit}; enter it in s, ms or min")
     # Behind the number may be another word; before it, or without a sign, it must be a time.
-    if unit in SECONDS or (match[3] and not before):
-        steps.append(_times(_stated(source, index, match[4]), SECONDS.get(unit, 1.0)))
+    if unit in SECONDS or (match[4] and not before):
+        steps.append(_times(stated, SECONDS.get(unit, 1.0)))
     return steps
+
+
+def _per_second(stated: Stated, text: str) -> Stated:
+    """Return the step [s] of a rate above 0 in Hz or, as the text says, kHz."""
+    size = 1000.0 if "khz" in text.lower() else 1.0
+    return Stated(value=1.0 / (size * stated.value), index=stated.index)
 
 
 def _stated(source: Source, index: int, text: str) -> Stated:
@@ -334,16 +325,6 @@ def _stated(source: Source, index: int, text: str) -> Stated:
 
 def _times(stated: Stated, size: float) -> Stated:
     return replace(stated, value=stated.value * size, rounding=stated.rounding * size)
-
-
-def factor_notes(lines: Iterable[tuple[int, str]]) -> list[str]:
-    """Note the factors that lines state, each with its index: they may be applied already."""
-    matches = ((index, _FACTOR.search(line)) for index, line in lines)
-    return [
-        f"line {index + 1} states a factor of {match[1]}, which is not applied"
-        for index, match in matches
-        if match and float(match[1]) != 1.0
-    ]
 
 
 def count_in(line: str) -> int:

@@ -64,6 +64,12 @@ class Stated:
     rounding: float = 0.0
     index: int = 0
 
+    def is_step(self, step_s: float) -> bool:
+        """Whether this step is another one, within the rounding of its digits."""
+        # A step of one digit is rounded, but not to half of it.
+        rounding = min(self.rounding, 0.1 * self.value)
+        return abs(self.value - step_s) <= rounding + 1e-4 * step_s
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Source:
@@ -176,7 +182,7 @@ class Source:
         if math.isnan(self.dt_s):
             return value
         # A caller may give 1/128 s as 0.007813 s, which is then taken.
-        if abs(value - self.dt_s) > stated.rounding + 1e-4 * value:
+        if not stated.is_step(self.dt_s):
             problem = (
                 f"{self.at(stated.index)}: the time step of the file is {value:.6g} s but"
                 f" {self.dt_s:.6g} s was entered"

@@ -17,19 +17,20 @@ from itertools import chain, islice
 import numpy as np
 
 from solver.errors import InputError, Problem, raise_any
-from solver.formats import phrases
+from solver.formats import phrases, remarks
 from solver.formats.channels import motion_file
 from solver.formats.columns import (
     SIDE_BY_SIDE,
     counting,
     magnitudes,
+    numbered,
     pairs,
     remedy,
     rising,
 )
 from solver.formats.headings import Layout, laid_out
 from solver.formats.likely_kinds import likely_text
-from solver.formats.not_accelerations import FEW, check_both_ways, check_remarks
+from solver.formats.not_accelerations import FEW, check_both_ways, check_count_among, check_remarks
 from solver.formats.numbers import (
     COMPARED,
     DECIMAL_COMMA,
@@ -89,6 +90,7 @@ def read(source: Source) -> MotionFile:
         dt_s, columns, time_notes = _timed(layout, table, columns)
     else:
         dt_s, time_notes = _untimed_step(layout, table.shape[1]), ()
+        check_count_among(layout, table)
         check_both_ways(layout, table)
     several = len(taken) > 1
     channels = [
@@ -100,7 +102,7 @@ def read(source: Source) -> MotionFile:
         )
         for i, values in zip(taken, columns, strict=True)
     ]
-    notes = [*time_notes, *phrases.factor_notes(layout.remarks)]
+    notes = [*time_notes, *remarks.factor_notes(layout.remarks)]
     if in_line := _pairs_in_line(layout, table):
         notes.append(f"each line has {in_line} pairs of time and value")
     for i, why in ignored.items():
@@ -220,7 +222,7 @@ def _across(layout: Layout, due: int) -> Floats:
     if (paired := pairs(values, due)) is not None:
         return paired
     table = values[: values.size // due * due].reshape(-1, due)
-    if due > 1 and rising(table):
+    if due > 1 and (rising(table) or numbered(table)):
         raise InputError(f"{source.name}: found no values across the lines; {remedy(table)}")
     return values.reshape(-1, 1)
 
@@ -320,9 +322,9 @@ def _timed(layout: Layout, table: Floats, columns: Floats) -> Even:
         return next(islice(layout.rows(), row // in_line, None))[0]
 
     dt_s, columns, notes = sampled(source, t_s, columns, line_of, unit_s)
-    # Where the times are even, they have a step that a remark states.
-    off = [step for step in steps if abs(dt_s - step.value) > step.rounding + 1e-4 * dt_s]
-    if steps and off == steps and not notes:
+    # Where the times are even, or rounded at a step that is entered, a remark states that step.
+    off = [step for step in steps if not step.is_step(dt_s)]
+    if steps and off == steps and (not notes or dt_s == source.dt_s):
         raise InputError(
             f"{source.at(steps[0].index)}: states a step of {steps[0].value:.6g} s, the times have"
             f" {dt_s:.6g} s; use a file in which they agree"

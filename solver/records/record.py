@@ -23,6 +23,7 @@ from solver.file_writing import write_whole
 from solver.model import INCH_M, STANDARD_GRAVITY_MPS2, Floats
 
 _ALONE = 3.0  # a code for missing data / all other samples, at least: shaking rises over several
+_JUMP = 2 / 3  # of a code that cannot be mistaken from the samples next to it
 # Nines of any length, -999.25 (the null value of well logs), 12345, and the limits of 16-bit
 # integers.
 _CODES = re.compile(r"-?(?:999+(?:\.9+)?|999\.25|99\.9+|9\.99+|12345|3276[78])")
@@ -200,16 +201,22 @@ def _decimals(values: Floats, minimum: int, within: float) -> int:
 
 
 def check_gaps(name: str, a_mps2: Floats) -> None:
-    """Refuse a record with a code for missing data: nines far above all other samples."""
+    """Refuse a record with a code for missing data: nines far from the samples next to them."""
     size = np.abs(a_mps2)
     index = int(size.argmax())
     # A code repeats: all samples of its size are set aside.
-    smaller = size[np.abs(size - size[index]) > 1e-9 * size[index]]
-    usual = float(smaller.max(initial=0.0))
-    if size[index] <= _ALONE * usual:
+    is_largest = np.abs(size - size[index]) <= 1e-9 * size[index]
+    usual = float(size[~is_largest].max(initial=0.0))
+    # Strong shaking may be nearly as large, but does not jump to its peak and back.
+    is_next = ~is_largest & (np.append(is_largest[1:], False) | np.append(False, is_largest[:-1]))
+    jumps = np.abs(a_mps2[is_next] - a_mps2[index])
+    is_alone = size[index] > _ALONE * usual
+    if not is_alone and jumps.min(initial=math.inf) <= _JUMP * size[index]:
         return
     values = [f"{a_mps2[index] / unit:.7g}" for unit in UNITS.values()]
     codes = [value for value in values if _CODES.fullmatch(value)]
+    if not is_alone:  # a peak may be 999, but hardly -999.0 or 9999
+        codes = [code for code in codes if code.startswith("-") or code.count("9") > 3]
     if size[index] > _NO_SHAKING_G * UNITS["g"]:
         # -99 cm/s2 may be shaking; -99 g cannot be.
         codes += _SHORT_CODES.intersection(values)
@@ -307,6 +314,9 @@ _LENGTHS = "nm|µm|mm|cm|m|ft|in"
 _NOT_ACCELERATION = re.compile(
     rf"({_LENGTHS})(/s)?|[a-z]+/s[23]|rad|(rad|deg|°)/s|dps|deg|°[cf]?|m?volts?|mv|%|[uµμ]t"
     r"|[hkm]?pa|[pk]s[if]|[km]n|lbf?|kips?|kgf"  # N alone is north
+    r"|[cdk]g|n/kg|[kmn]*n-?m|gs|g2/hz|[uµ]nitless|dimensionless|normali[sz]ed|-|[%‰].*"
+    # A multiple of a unit: 0.001g, x1000g, g/2, dm/s2.
+    r"|x?\d[\d^e.-]*(?:g|gal|[cm]?m/s2)|(?:g|gal|[cm]?m/s2)(?:,?[x×/]\d.*|10{2,})|[dk]m/s2"
 )
 _SPELLINGS = tuple(
     (re.compile(pattern), short)

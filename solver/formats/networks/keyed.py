@@ -16,7 +16,7 @@ from itertools import chain
 import numpy as np
 
 from solver.errors import InputError, raise_any
-from solver.formats import phrases
+from solver.formats import phrases, remarks
 from solver.formats.channels import (
     centered_peak_notes,
     check_length,
@@ -26,12 +26,13 @@ from solver.formats.channels import (
     time_in,
 )
 from solver.formats.columns import remedy, rising
+from solver.formats.not_accelerations import FEW
 from solver.formats.numbers import DECIMAL_COMMA, Block, free_values, is_row, printed, separated
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
 from solver.formats.times import sampled
 from solver.model import Floats
-from solver.records.record import Record, quoted, unit_size
+from solver.records.record import Record, has_gravity, quoted, unit_size
 
 # Source: INGV, DYNA 1.0 and 1.2, the heading of the Engineering Strong-Motion database, esm-db.eu,
 # and of ITACA, whose older files name the component `COMPONENT`; isesd.hi.is, Datafile Format (the
@@ -122,7 +123,7 @@ def read(source: Source) -> MotionFile:
     # Of a quantity with its value, such as a peak velocity, the file may still be accelerations.
     titles = [] if any(map(phrases.ACCELERATION.search, top)) else enumerate(top)
     for index, title in titles:
-        if (other := phrases.other_quantity(title)) and not _VALUED.search(title):
+        if (other := remarks.other_quantity(title)) and not _VALUED.search(title):
             raise InputError(
                 f"{source.at(index)}: found {other!r} but no acceleration; use the acceleration"
                 " file, or correct the line"
@@ -151,11 +152,13 @@ def read(source: Source) -> MotionFile:
         notes = centered_peak_notes(source, index, peak_mps2, values)
         if is_uncorrected:
             notes += offset_notes(values)
+        if len(values) > FEW and values.min() >= 0.0 and values.any() and not has_gravity(values):
+            notes += ("no value is below zero: is it a component of acceleration?",)
         channels.append(Record(name=name, dt_s=dt_s, a_mps2=values, notes=notes))
     form = next((form for form, mark in _FORMS.items() if mark in head), "KEY: value")
     # The time zone may stand behind the time.
     begins = re.split(r"\(|[A-Z]", heading.get("start")[1])[0].rstrip()
-    factors = phrases.factor_notes(enumerate(top))
+    factors = remarks.factor_notes(enumerate(top))
     return motion_file(source, form, channels, factors, time_in(begins, *_START_FORMATS))
 
 

@@ -14,8 +14,9 @@ import re
 from collections.abc import Sequence
 
 from solver.errors import InputError
-from solver.formats import phrases
+from solver.formats import phrases, remarks
 from solver.formats.channels import motion_file
+from solver.formats.not_accelerations import FEW
 from solver.formats.numbers import Block, free_values, is_row, printed
 from solver.formats.record_file import MotionFile
 from solver.formats.source import Source, Stated
@@ -27,7 +28,6 @@ from solver.records.record import Record, has_gravity, quoted
 
 # The count is in the first lines of a file: the heading has four, or seven and more.
 _HEADING_LINES, _LONGEST_HEADING = 6, 20
-_FEW = 10  # values: fewer may be a sketch of a pulse
 _NAMED = re.compile(r"NPTS\s*=\s*(\d+)", re.ASCII | re.IGNORECASE)
 _BEHIND = re.compile(
     r"\s*(\d+)(?:\s*+,)?\s++(\d*(?:\.\d*)?(?:[eE][+-]?\d+)?)\s*+(?:,\s*)?NPTS\s*,\s*DT",
@@ -51,8 +51,9 @@ def read(source: Source) -> MotionFile:
         number = _bare_line(source.lines)
     heading = source.lines[:number]
     for index, line in enumerate(heading):
-        if quantity := phrases.other_quantity(line):
+        if quantity := remarks.other_quantity(line):
             raise InputError(f"{source.at(index)}: found {quantity}; use the file of acceleration")
+    remarks.check_units_alone(source, source.lines[: number + 1])
     stated = source.lines[number]
     counted = _counted(stated) or _BARE.fullmatch(stated.strip())
     if not counted:
@@ -71,7 +72,7 @@ def read(source: Source) -> MotionFile:
     dt_s = source.step(source.agreed(steps or [Stated(index=number)]))
     block = Block(first=number + 1, stop=len(source.lines), count=int(counted[1]), promised=number)
     values = free_values(source, block) * scale
-    is_curve = len(values) > _FEW and values.min() >= 0.0 and values.any()
+    is_curve = len(values) > FEW and values.min() >= 0.0 and values.any()
     if is_curve and not has_gravity(values):
         raise InputError(
             f"{source.at(number + 1)}: found no value below zero: this is a spectrum or a curve,"
@@ -81,7 +82,7 @@ def read(source: Source) -> MotionFile:
     _, comma, component = heading[1].rpartition(",") if len(heading) > 1 else ("", "", "")
     name = component.strip() if comma else ""
     channel = Record(name=name, dt_s=dt_s, a_mps2=values, notes=())
-    return motion_file(source, form, [channel])
+    return motion_file(source, form, [channel], remarks.factor_notes(enumerate(heading)))
 
 
 def _counted(line: str) -> re.Match[str] | None:

@@ -364,6 +364,13 @@ def test_a_heading_of_the_measure_and_the_rate_is_read(heading, is_spectral):
     assert points_of(lines, is_spectral=is_spectral) == [(0.1, 0.05), (1.0, 1e-4)]
 
 
+def test_columns_without_a_heading_in_the_other_order_are_noticed():
+    points = [(0.05, 0.03), (0.2, 0.004), (0.8, 1e-4)]
+    assert points_of([f"{x},{rate}" for x, rate in points], is_spectral=False) == points
+    with pytest.raises(InputError, match=r"has no heading, and 0\.0001 in the first column, less"):
+        points_of([f"{rate},{x}" for x, rate in reversed(points)], is_spectral=False)
+
+
 @pytest.mark.parametrize(
     ("heading", "found", "is_spectral"),
     by_day([
@@ -385,6 +392,12 @@ def test_a_heading_of_the_measure_and_the_rate_is_read(heading, is_spectral):
         ("im = ln(PGA)\nim,rate", ["im = ln(PGA)"], False),
         ("in % g\nim,rate", ["in % g"], True),
         ("Spectral acceleration\nim,rate", ["Spectral acceleration"], False),
+        ("# Scale: 1000\nim,rate", ["# Scale: 1000"], False),
+        ("Multiplier 0.001\nim,rate", ["Multiplier 0.001"], False),
+        ("# MCE_R\nim,rate", ["# MCE_R"], True),
+        ("# vertical PGA\nim,rate", ["# vertical PGA"], False),
+        ("# 50-year exposure\nim,rate", ["# 50-year exposure"], False),
+        ("# 2% damping\nim,rate", ["# 2% damping"], True),
         ("PSA 0.2\nim,rate", ["PSA 0.2"], True),
         ("T = 0.2 sec\nim,rate", ["T = 0.2 sec"], True),
         ("# Sa(0.5 s)\n", ["# Sa(0.5 s)"], True),

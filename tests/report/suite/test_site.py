@@ -334,6 +334,12 @@ def test_every_invalid_cell_is_reported_by_its_address_or_its_line(tmp_path):
         ("Values x 0.01\nperiod,sa", "target.csv:1: says 'Values x 0.01'; use accelerations"),
         ("# Units: mg\nperiod,sa", "target.csv:1: says '# Units: mg'; use accelerations in g"),
         ("Velocity (cm/s)\nperiod,sa", "target.csv:1: says 'Velocity (cm/s)'; use accelerat"),
+        ("MCE_R\nperiod,sa", "target.csv:1: says 'MCE_R'; use accelerations in g"),
+        ("Scale: 1000\nperiod,sa", "target.csv:1: says 'Scale: 1000'; use accelerations"),
+        ("1.5 x design\nperiod,sa", "target.csv:1: says '1.5 x design'; use accelerations"),
+        ("Units: 0.1 g\nperiod,sa", "target.csv:1: says 'Units: 0.1 g'; use accelerations"),
+        ("Sa / S_DS\nperiod,sa", "target.csv:1: says 'Sa / S_DS'; use accelerations in g"),
+        ("h = 2%\nperiod,sa", "target.csv:1: says 'h = 2%'; use the spectrum at 5% damping"),
         ("a,b", "target.csv: no row of headings in the first 10 rows; enter frequency [Hz]"),
     ],
 )

@@ -125,6 +125,15 @@ KINDS = {
         r"column 9 contains line numbers: delete it; .*--values-per-line (\d+)", across(V, 8),
         given=BOTH, then=BOTH | {"values_per_line": "1"},
     ),
+    "lines with numbers that begin anew": Kind(
+        lines(*(f"{row}  {k % 5}" for k, row in enumerate(across(V, 8).splitlines()))),
+        r"column 9 contains line numbers: delete it; .*--values-per-line (\d+)", across(V, 8),
+        given=BOTH | {"values_per_line": 9}, then=BOTH | {"values_per_line": "1"},
+    ),
+    "a count above a column": Kind(
+        lines("200", *GAL), "put # before it", lines("# 200", *GAL),
+        given={"units": "gal", **STEP}, then={"units": "gal", **STEP},
+    ),
     "lines with their numbers before times": Kind(
         table(map(str, range(COUNT)), T, V, mark=" "), "column 1 contains line numbers: delete it",
         table(T, V, mark=" "), given=IN_G, then=IN_G,

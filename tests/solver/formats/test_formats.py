@@ -440,6 +440,20 @@ def test_the_unit_of_a_count_and_step_is_found_however_it_is_said(file, line):
     assert read_motion_file(file(content)).channel().a_mps2.tolist() == [G, 2.0 * G, 3.0 * G]
 
 
+@pytest.mark.parametrize("unit", ["0.01 G", "1/100 G", "G*1000", "G X 1000", "10 CM/S/S"])
+def test_a_multiple_of_a_unit_above_a_count_is_refused(file, unit):
+    heading = PEER_HEADING.replace("OF G", f"OF {unit}")
+    path = file(f"{heading}NPTS= 3, DT= .01 SEC\n1 -2 3\n")
+    (problem,) = input_problems(read_motion_file, path, units="g")
+    assert f": found '{unit}', a multiple of a unit; convert the values" in problem
+
+
+def test_a_factor_above_a_count_is_noted(file):
+    path = file(f"SCALE FACTOR = 2.0\n{PEER_HEADING}NPTS= 3, DT= .01 SEC\n1 -2 3\n")
+    (note,) = read_motion_file(path).notes
+    assert note == "line 1 states 'SCALE FACTOR = 2.0', which is not applied"
+
+
 def test_volume_2_of_usc_has_the_unit_of_its_peak_and_no_end(file):
     text = (SAMPLES / "csmip-old.v2").read_text()
     first = text[: text.index("/&")].replace("NO SUCH SCHOOL", "STATION USC# 0000", 1)

@@ -134,6 +134,13 @@ def test_codes_beside_shaking_and_gravity_are_told(file):
         path = file(shaken(code, unit=unit, peak=peak))
         (problem,) = input_problems(read_motion_file, path, units=unit, dt_s=0.01)
         assert "code for missing data" in problem
+    # Strong shaking is nearly as large as the code, which is no peak of it; 999 may be one.
+    for at in (26, 31):
+        path = file(shaken("-999", at=(at,), unit="cm/s2", peak=0.6))
+        (problem,) = input_problems(read_motion_file, path, units="cm/s2", dt_s=0.01)
+        assert "code for missing data" in problem
+    peak = "".join(f"{value}\n" for value in (0, 300, 700, 999, 800, 200, -400, 0))
+    assert read_motion_file(file(peak), units="cm/s2", dt_s=0.01).channels
     rows = "".join(f"{k / 100},{0.1 * (-1) ** k},{1 - 0.1 * (-1) ** k}\n" for k in range(50))
     path = file(f"t_s,X_g,Z_g\n{rows}")
     assert spaced(read_motion_file(path).notes) == (

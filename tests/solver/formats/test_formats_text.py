@@ -251,6 +251,30 @@ def test_what_the_message_on_values_across_the_lines_advises_works(file):
     assert record.a_mps2 == pytest.approx([G * value for value in WAVED], abs=1e-4)
 
 
+@pytest.mark.parametrize(
+    "number", [lambda k: k % 10 + 1, lambda k: 25 - k, lambda k: 7], ids=["anew", "down", "same"]
+)
+def test_a_column_of_whole_numbers_beside_decimals_is_no_value(file, number):
+    rows = [f"{line} {number(k)}" for k, line in enumerate(lines_of(WAVED, 8))]
+    (problem,) = problems_of(file("\n".join(rows)), dt_s=0.01, values_per_line=9)
+    assert "column 9 contains line numbers: delete it; then" in problem
+
+
+@pytest.mark.parametrize(
+    ("above", "below", "line"),
+    [
+        (["200"], [], 1), (["200.0"], [], 1), (["200", "0.01"], [], 1), (["0.01", "200"], [], 2),
+        (["El Centro", "200"], [], 2), ([], ["200"], 201), (["0.01"], [], 1),
+    ],
+)  # fmt: skip
+def test_the_count_or_the_step_is_no_sample(file, above, below, line):
+    column = [f"{100 * value:.3f}" for value in WAVED]
+    path = file("\n".join([*above, *column, *below, ""]))
+    (problem,) = problems_of(path, units="cm/s2", dt_s=0.01)
+    told = f"roof.csv:{line}: found {'0.01' if line == 1 and above[0] == '0.01' else '200'}, the"
+    assert problem.startswith(f"{told} step or the number of the other values; put # before it")
+
+
 def test_zeros_before_a_pulse_are_values_across_the_lines(file):
     content = "0 0 0 0\n" * 30 + "0.1 0.3 0.2 0\n"
     assert len(read_record(file(content), units="g", dt_s=0.01, values_per_line=4).a_mps2) == 124
@@ -273,6 +297,9 @@ def test_one_column_takes_its_step_from_the_argument(file, content):
         "# Roof, north wall\n# units: cm/s2\n",
         "# accelerations in units of gal.\n",
         "# by hand [cm/s²]\ntime,acc\n",
+        "t/s;acc/gal\n",
+        "Tiempo (seg);acc, gal\n",
+        "time,cm/s2\n",
     ],
 )
 def test_units_in_a_heading_or_a_remark_are_taken(file, heading):
@@ -297,8 +324,48 @@ def test_a_comment_that_may_mean_something_else_asks_nothing_where_units_are_sai
 
 
 def test_a_factor_in_a_remark_is_noted(file):
-    for line, notes in (("scale factor: 1.5", 1), ("Scaling factor = 1.0", 0), ("factor 2", 0)):
+    for line, notes in (
+        ("scale factor: 1.5", 1), ("Scaling factor = 1.0", 0), ("factor 2", 0), ("Scale: 1000", 1),
+        ("Multiplier 9.81", 1), ("values x 1000", 1), ("scaled by 0.5", 1), ("Scaling 1:4", 1),
+        ("1 g = 16384 LSB", 1), ("Normalised", 1), ("Station 3 x", 0), ("full scale, g", 0),
+    ):  # fmt: skip
         assert len(read_motion_file(file(f"# {line}\ntime_s,acc_g\n0,1\n1,2\n")).notes) == notes
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("# Units: 1/1000 g", "1/1000 g"), ("in 1e-3 g", "1e-3 g"), ("unit = 10 cm/s2", "10 cm/s2"),
+        ("# units of g*1000", "g*1000"), ("acc x 0.01 g", "0.01 g"), ("# in g x 100", "g x 100"),
+    ],
+)  # fmt: skip
+def test_a_multiple_of_a_unit_above_the_numbers_is_no_unit(file, line, words):
+    (problem,) = problems_of(file(f"{line}\n1\n-2\n"), dt_s=0.01)
+    assert problem == (
+        f"roof.csv:1: found {words!r}, a multiple of a unit; convert the values to a unit alone,"
+        " and correct the line"
+    )
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "acc (g*1000)", "acc (1e-3 g)", "acc [g/1000]", "acc (g)/9.81", "acc*10 (g)", "10*acc_g",
+        "acc_x1000_g", "acc (m/s2) x10", "acc (N/kg)", "acc (g^2/Hz)", "acc (-)", "acc/PGA",
+        "acc (unitless)", "drift", "déplacement", "velocità", "位移", "energy", "Speed",
+    ],
+)  # fmt: skip
+def test_a_heading_of_a_multiple_or_another_quantity_is_no_acceleration(file, heading):
+    (problem,) = problems_of(file(f"time (s),{heading}\n0,1\n0.01,-2\n0.02,1\n"))
+    assert problem.startswith((
+        f"roof.csv: found no acceleration component next to {heading!r}, not an acc",
+        f"roof.csv:1: found {heading.partition('(')[2].strip(')')!r}, a multiple of a unit; conv",
+    ))  # fmt: skip
+
+
+def test_a_factor_beside_the_unit_of_times_is_asked_about(file):
+    (problem,) = problems_of(file("Time*100 (s),acc_g\n0,1\n1,-2\n2,1\n"))
+    assert problem.startswith("roof.csv:1: found times in 'Time*100 (s)'; enter them in s, ms or")
 
 
 def test_row_numbers_before_times_are_left_out(file):
@@ -337,11 +404,26 @@ def test_a_column_without_a_value_below_zero_or_a_heading_is_no_record(file):
     ["# dt = 0.005 s", "a_g  dt=5 ms", "# DT[s]=.005", "# time step: 5 ms", "# DT = 5 MSEC",
      "# dt_ms = 5", "# time step 0.005 s", "# sampling interval (sec) .005", "# fs = 0.2 kHz",
      "# Sampling rate 200 Hz", "# Sampling Freq(Hz) = 200", "# 2 time steps, dt: 5.0E-3 and more",
-     "# dt = 0,005 s", "# dt=1/200 s", "# Sampling rate: 200,0 Hz", "# sampling rate = 0.005 sec",
+     "# time-step: 5 ms", "timestep = 0.005", "# Sampling: 200 Hz", "# SR: 200", "Δt = 0.005 s",
+     "# rate 200 sps", "# sample rate 200", "# DELTA=0.005", "# interval: 0.005 s", "# 200 sps",
+     "# digitized at 200 Hz", "# Equally spaced at .005 sec", "# 0.005 sec intervals",
+     "# Samples per second: 200", "# 采样率: 200 Hz", "# Paso: 0.005 s",
+     "# Low-pass 25 Hz, sampled at 200 Hz", "# dt = 0,005 s", "# dt=1/200 s",
+     "# Sampling rate: 200,0 Hz", "# sampling rate = 0.005 sec",
      "# Sampling rate: 5 ms", "# fs = 200 s^-1", "# dt = 0.005 s, sampling rate 200 Hz"],
 )  # fmt: skip
 def test_a_remark_gives_the_step_or_the_rate_in_its_unit(file, remark):
     assert read_record(file(f"{remark}\n1\n2\n"), units="g").dt_s == 0.005
+
+
+@pytest.mark.parametrize(
+    "remark",
+    ["# filtered at 25 Hz", "# delta = 34.5 km", "# Step 3: baseline corrected",
+     "# interval 2 of 5", "# recorded 2024, 3 Hz corner", "# natural frequency 2.5 Hz",
+     "# paso 3", "# delta: 12.5"],
+)  # fmt: skip
+def test_a_number_of_something_else_is_no_step(file, remark):
+    assert read_record(file(f"{remark}\n1\n-2\n"), units="g", dt_s=0.005).dt_s == 0.005
 
 
 @pytest.mark.parametrize(
@@ -468,6 +550,13 @@ REFUSED = {
     **{f"no unit of {name}": (f"{name},a_g\n" + "".join(f"{5 * k},0\n" for k in range(20)), {},
         f":1: found {name!r} with steps of 5; enter the unit of the times, such as time_s or"
         " time_ms") for name in ("time", "timestamp")},
+    "a remark has half the step": ("# dt = 0.01\n1\n2\n", {"dt_s": 0.005},
+        ":1: the time step of the file is 0.01 s but 0.005 s was entered; enter the time step"
+        " of the file, or none"),
+    "a remark has twice the step of rounded times": (
+        "# dt = 0.01 s\ntime_s,a_g\n" + "".join(f"{0.005 * k:.2f},{k % 2}\n" for k in range(24)),
+        {"dt_s": 0.005},
+        ":1: states a step of 0.01 s, the times have 0.005 s; use a file in which they agree"),
     "a rate contradicts": ("# Sampling rate: 100 Hz\ntime_s,a_g\n0,1\n0.02,2\n", {},
         ":1: states a step of 0.01 s, the times have 0.02 s; use a file in which they agree"),
     "commas for thousands": ("t_s;a_gal\n0;1.5\n1;1,234.5\n", NONE,
