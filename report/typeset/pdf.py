@@ -66,8 +66,10 @@ def places_of(html: str) -> Mapping[str, float]:
     load_renderer()
     from weasyprint import CSS
 
+    # The numbers of sheets, which are not known yet, take room as well.
     endless = CSS(
         string="@page { size: 8.5in 1000in !important } @page a4 { size: 8.27in 1000in !important }"
+        " .contents p a::after { content: ': 99' !important }"
     )
     with warnings.catch_warnings(), _no_fonts_left():
         warnings.simplefilter("ignore", ResourceWarning)

@@ -117,7 +117,7 @@ def test_the_prescriptive_value_is_not_offered_where_the_analysis_exceeds_it():
      ({"arrays": [ARRAY("A1", 0.5, cg_height_m=40 * projects.INCH)]},
       "height of the center of gravity (D/C 2.00)"),
      ({"site": projects.site(risk_category="IV", i_e=1.5)},
-      "risk Category (I = 1 to IV = 4) (4, at most 3†)"),
+      "Risk Category (I = 1 to IV = 4) (4, at most 3†)"),
      ({"site": projects.site(stories=20)}, "number of stories (20, at most 6†)"),
      ({"arrays": [ARRAY("A1", 4.0)]}, "roof slope, prescriptive procedure (D/C 1.34)"),
      ({"arrays": [ARRAY("A1", 0.5, mu=0.3)]},
