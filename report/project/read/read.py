@@ -39,7 +39,14 @@ from report.project.read.locate import (
     is_absent,
 )
 from report.project.read.positions import FRESH, CellPosition, found_at
-from report.project.read.unseen import by_cell, copies, from_outside, not_calculated, unseen
+from report.project.read.unseen import (
+    by_cell,
+    copies,
+    from_outside,
+    not_calculated,
+    over_example,
+    unseen,
+)
 from report.project.read.workbook_data import (
     IGNORED,
     EchoRow,
@@ -150,6 +157,7 @@ def read_as(
         unfound=frozenset(gathered.unfound),
         unseen=hidden,
         warnings=(
+            *gathered.warnings,
             *copies(book, sections, gathered.addresses),
             *not_calculated(book, gathered.used, Place(sections[0].key)),
             *from_outside(book, Place(sections[0].key)),
@@ -167,6 +175,7 @@ class Gathered:
     addresses: dict[Place, str] = field(default_factory=dict)
     unfound: set[str] = field(default_factory=set)
     used: list[tuple[Place, Found]] = field(default_factory=list)
+    warnings: list[Finding] = field(default_factory=list)
 
     def use(self, place: Place, cell: Found) -> None:
         """Note that the content of a cell is read."""
@@ -238,6 +247,8 @@ def _read_table(book: OpenBook, section: SheetSection, gathered: Gathered) -> No
             sheet=heading.sheet, cell=heading.cell, label=label, typed="", unit="", value=IGNORED
         )
         gathered.echo.append(ignored)
+    headings = {name: column.heading for name, column in table.columns.items()}
+    gathered.warnings += over_example(book, section, headings) if headings else ()
     sheet = table.heading.sheet
     for number in table.rows:
         cells = {

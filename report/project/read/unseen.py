@@ -21,7 +21,7 @@ from report.project.model.input_rows import Place
 from report.project.read.archive import OpenBook
 from report.project.read.cells import Found
 from report.project.read.number_formats import shows_nothing
-from report.project.read.positions import bounds_of, fields_by_label, labels
+from report.project.read.positions import CellPosition, bounds_of, fields_by_label, labels
 from report.project.workbook.entries import SheetSection
 from report.text.typed_letters import cut
 
@@ -299,6 +299,26 @@ def _labels(section: SheetSection, rows: Rows) -> Set[str]:
 
 
 _MOST_LISTED = 8
+
+
+def over_example(
+    book: OpenBook, section: SheetSection, columns: Mapping[str, CellPosition]
+) -> Iterator[Finding]:
+    """Yield a warning if a row is typed over the example above the headings, given by field."""
+    first = next(iter(columns.values()))
+    sheet, row = book.sheets[first.sheet], first.row - 1
+    if row < 1 or first.column < 2 or sheet.cell(row, first.column - 1).value != "Example":
+        return
+    for name, heading in columns.items():
+        value, example = sheet.cell(row, heading.column).value, section.entry(name).example
+        # Examples are texts, of which that of an ID is the same in all workbooks.
+        is_id = name == "id" and isinstance(value, str) and value != example
+        if is_id or (isinstance(value, int | float) and not isinstance(value, bool)):
+            text = f"the row Example has {cut(str(value))}, and is not read: enter your values"
+            text += " below the headings"
+            cell = f"{sheet.title}!{get_column_letter(heading.column)}{row}"
+            yield replace(warning(f"example {sheet.title}", Place(section.key), text), cell=cell)
+            return
 
 
 def from_outside(book: OpenBook, place: Place) -> Iterator[Finding]:

@@ -346,6 +346,20 @@ def test_a_workbook_with_a_chart_reads_the_same(tmp_path, is_own_sheet):
     assert findings_of(path) == []
 
 
+@pytest.mark.parametrize(
+    ("cells", "shown"),
+    [({"Objects!B6": "RTU-9"}, "RTU-9"), ({"Objects!B6": "RTU-9", "Objects!D6": 50}, "RTU-9"),
+     ({"Objects!D6": 50}, "50")],
+)  # fmt: skip
+def test_a_row_that_is_typed_over_the_example_is_named(tmp_path, cells, shown):
+    path = type_into(make(tmp_path), cells)
+    assert same(read_workbook(path).input, project())
+    assert findings_of(path) == [(
+        "example Objects", next(iter(cells)),
+        f"the row Example has {shown}, and is not read: enter your values below the headings",
+    )]  # fmt: skip
+
+
 def copied(book, title):
     """Copy a sheet as Excel does: with a table of another name."""
     sheet = book.copy_worksheet(book[title])
