@@ -51,6 +51,7 @@ _FACTOR = re.compile(
     r"|amplitude)[ _]factor|factor(?=\s?[:=])|gain|divi(?:de|ded|sor)|times(?= \d))\b"
     rf"[^\d;]{{0,20}}(?P<number>{_NUMBER}(?:\s?[:/]\s?\d+)?)(?![\d/(-])|\b1 ?g ?= ?[\d.]++"
     rf"|(?<![\w.)*])[x×*]\s?(?:10\s?\^\s?-?\d|{_NUMBER})\b|\bnormali[sz]ed\b"
+    r"|\bdivided by\b|\b(?:raw|digital|in) counts\b|\b(?:ln|log(?:10)?)\s?\(|\bLSB\b|\bm?V/g\b"
     rf"|(?<![\w.]){_NUMBER}\s?[x×*]\s(?=[a-z])",
     re.ASCII | re.IGNORECASE,
 )
@@ -61,6 +62,7 @@ _TIMES_UNIT = re.compile(
     rf"(10\s?\^\s?[+-]?\d|{_NUMBER}(?:\s?/\s?\d+)?)\s?[x×*]?\s?+([a-zµ%][^\s,;()\[\]]{{0,15}})",
     re.ASCII | re.IGNORECASE,
 )
+_PERCENT = re.compile(r"(?:%|\bpercent)\s?of g\b", re.IGNORECASE)
 _UNIT_TIMES = re.compile(
     r"(?:\bunits?\b|\bin\b)[\s:=]*+(?:(?:of|in|are|is)\s++)?([a-zµ%][^\s,;()\[\]×]{0,15}?)"
     r"(\s?\(?\s?(?:[x×/]|(?<!\*)\*(?!\*))\s?\(?[\d.]++)",
@@ -108,6 +110,8 @@ def is_other_damping(line: str) -> bool:
 
 def times_unit(line: str) -> str:
     """Multiple of a unit in which a line of text states the numbers below it, as 0.01 g."""
+    if percent := _PERCENT.search(line):
+        return percent[0]
     for match in _TIMES_UNIT.finditer(line):
         if match[1] != "1" and unit_size(match[2].rstrip(".")) > 0.0:
             return f"{match[1]} {match[2].rstrip('.')}"
@@ -138,7 +142,7 @@ def factor_notes(lines: Iterable[tuple[int, str]]) -> list[str]:
     """Note the factors that lines state, each with its index: they may be applied already."""
     factors = ((index, factor_in(line)) for index, line in lines)
     return [
-        f"line {index + 1} states {factor!r}, which is not applied"
+        f"line {index + 1} states {factor!r}: no factor is applied"
         for index, factor in factors
         if factor
     ]

@@ -451,7 +451,7 @@ def test_a_multiple_of_a_unit_above_a_count_is_refused(file, unit):
 def test_a_factor_above_a_count_is_noted(file):
     path = file(f"SCALE FACTOR = 2.0\n{PEER_HEADING}NPTS= 3, DT= .01 SEC\n1 -2 3\n")
     (note,) = read_motion_file(path).notes
-    assert note == "line 1 states 'SCALE FACTOR = 2.0', which is not applied"
+    assert note == "line 1 states 'SCALE FACTOR = 2.0': no factor is applied"
 
 
 def test_volume_2_of_usc_has_the_unit_of_its_peak_and_no_end(file):

@@ -328,6 +328,7 @@ def test_a_factor_in_a_remark_is_noted(file):
         ("scale factor: 1.5", 1), ("Scaling factor = 1.0", 0), ("factor 2", 0), ("Scale: 1000", 1),
         ("Multiplier 9.81", 1), ("values x 1000", 1), ("scaled by 0.5", 1), ("Scaling 1:4", 1),
         ("1 g = 16384 LSB", 1), ("Normalised", 1), ("Station 3 x", 0), ("full scale, g", 0),
+        ("raw counts", 1), ("ln(acc)", 1), ("divided by PGA", 1), ("2 V/g", 1), ("counts: 2", 0),
     ):  # fmt: skip
         assert len(read_motion_file(file(f"# {line}\ntime_s,acc_g\n0,1\n1,2\n")).notes) == notes
 
@@ -337,6 +338,7 @@ def test_a_factor_in_a_remark_is_noted(file):
     [
         ("# Units: 1/1000 g", "1/1000 g"), ("in 1e-3 g", "1e-3 g"), ("unit = 10 cm/s2", "10 cm/s2"),
         ("# units of g*1000", "g*1000"), ("acc x 0.01 g", "0.01 g"), ("# in g x 100", "g x 100"),
+        ("values in % of g", "% of g"),
     ],
 )  # fmt: skip
 def test_a_multiple_of_a_unit_above_the_numbers_is_no_unit(file, line, words):

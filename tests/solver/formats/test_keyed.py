@@ -213,7 +213,7 @@ def test_two_steps_are_asked_about_and_a_factor_is_noted(file):
     assert problem.startswith("roof.csv:4: found a step of 0.01 s and one of 0.002 s; enter the ti")
     assert read_record(other, dt_s=0.01).dt_s == 0.01
     notes = read_motion_file(file(f"Scale factor: 0.1\n{content}")).notes
-    assert notes == ("line 1 states 'Scale factor: 0.1', which is not applied",)
+    assert notes == ("line 1 states 'Scale factor: 0.1': no factor is applied",)
     positive = file(content.replace("-", ""))
     assert "no value is below zero: is it a" in read_motion_file(positive).notes[0]
 
