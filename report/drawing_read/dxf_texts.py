@@ -18,6 +18,8 @@ _HEIGHTS = ("HT", "HGT", "HEIGHT", "EL", "ELEV", "ELEVATION")
 _LETTER = re.compile(r"%%(0[3-9]\d|1[01]\d|12[0-6])", re.ASCII)
 # A code of a text of lines, with what it stacks: one above the other, with or without a line.
 _STACKED = re.compile(r"\\(?:S((?:\\.|[^;\\])*);?|.)", re.DOTALL)
+# A text that is struck through, up to the next code or bracket.
+_STRUCK = re.compile(r"(?<!\\)\\K[^\\{}]*")
 _STACKS, _ESCAPED = re.compile(r"(?<!\\)[\^/#]"), re.compile(r"\\([\^/#;])")
 
 
@@ -36,7 +38,7 @@ def lines_of_text(entity: Any) -> list[str]:
     written = _LETTER.sub(lambda code: chr(int(code[1])), written)
     # What the library calls fast takes a time that grows as the square of the length.
     texts = (
-        plain_mtext(_STACKED.sub(_fraction, written), split=True)
+        plain_mtext(_STACKED.sub(_fraction, _STRUCK.sub("", written)), split=True)
         if is_mtext
         else [plain_text(written)]
     )

@@ -413,9 +413,14 @@ def test_a_height_that_may_be_above_a_datum_is_said_as_above_the_roof(tmp_path):
         ("HT 4'-0{\\H0.7x;\\S 1 / 2 ;}\"", "", 48.5),
         (r"UNIT {\S1#2;}, HT 3{\S1#2;}'", "UNIT 1/2", 42.0),
         (r"C:\\S1 HT 48 in", r"C:\S1", 48.0),
+        (r'RTU-1 {\KHT 60"\k} HT 42"', "RTU-1", 42.0),
+        (r'RTU-1\P{\C1;\KHT 60"}\PHT 42"', "RTU-1", 42.0),
+        (r"C:\\K HT 48 in", r"C:\K", 48.0),
     ],
 )
-def test_a_stacked_fraction_is_one_behind_a_blank(tmp_path, text, name, inches):
+def test_a_stacked_fraction_is_one_behind_a_blank_and_struck_text_is_none(
+    tmp_path, text, name, inches
+):
     sketch = Sketch()
     sketch.ring("OBJECT", UNIT_FT)
     sketch.space.add_mtext(text, dxfattribs={"layer": "OBJECT"}).set_location((69, 60))
