@@ -26,7 +26,7 @@ from report.suite.targets import (
     site_targets,
     table_targets,
 )
-from report.text.command_line import called
+from report.text.command_line import command
 from report.text.counts import numbered
 from solver.errors import InputError
 from solver.rules.ac156 import Tail
@@ -79,10 +79,7 @@ def generate_suite(
         return
     for line in said_near(folder):
         say(f"warning: {line}", is_error=True)
-    click.echo(
-        "Next: copy the records into records/ of a project, list them on its Motions worksheet,"
-    )
-    click.echo(f"then run: {called()} check DIR")
+    click.echo(f"Next: {command('motion rows', folder)} DIR --at roof")
 
 
 def _targets(

@@ -174,7 +174,7 @@ def table(outcomes: Sequence[ReportOutcome]) -> Iterator[str]:
     """Return the headings and a line for each project."""
     rows = [("project", "verdict", "D/C", "time", "package")]
     for outcome in outcomes:
-        verdict = outcome.verdict or numbered(len(outcome.errors), "problem")
+        verdict = outcome.verdict or numbered(len(outcome.errors), "error")
         if outcome.is_internal_error:
             verdict = "internal error"
         ratio_text = ratio(outcome.demand_capacity) if outcome.demand_capacity is not None else ""

@@ -176,7 +176,7 @@ def fill_ballast(
     for name, weight_n in weights_n.items():
         row = change.rows("arrays", "id", name)[0]
         if not change.cell("arrays", row, "ballast_n").is_blank:
-            change.refuse("arrays", row, "ballast_n", f"the ballast weight of {name}")
+            change.refuse("arrays", row, "ballast_n", "ballast weight", name)
         weight = None if weight_n is None else change.number("arrays", "ballast_n", weight_n)
         change.put("arrays", row, {"ballast_n": weight})
     change.fill_in(replace=replace)
@@ -193,7 +193,7 @@ def _fill_arrays(change: WorkbookChange, plan: RoofPlan) -> list[str]:
             lines.append(f"{place.name} has another size; stays as typed: {typed}")
         if place.modules and "modules" in change.table("arrays").columns:
             if not change.cell("arrays", row, "modules").is_blank:
-                change.refuse("arrays", row, "modules", f"the number of modules of {place.name}")
+                change.refuse("arrays", row, "modules", "number of modules", place.name)
             values["modules"] = place.modules
         change.put("arrays", row, values)
     return lines
@@ -237,7 +237,7 @@ def _fill_place(
     """Fill in the sides of a rectangle or the outline of a polygon; clear the previous location."""
     taken = [side for side in SIDES if not change.cell(key, row, side).is_blank]
     if taken:
-        change.refuse(key, row, taken[0], f"the place of {name}")
+        change.refuse(key, row, taken[0], "location", name)
     _fill_outline(change, name, shape, source)
     for side, value in zip(SIDES, _sides(shape), strict=True):
         # A polygon has no sides: those of a rectangle that was there are cleared.
@@ -301,7 +301,7 @@ def _fill_roof(change: WorkbookChange, shape: Shape) -> None:
         si = cell_as_column(book, section, section.entry(side), position).si
         is_blank = found_at(book, position).is_blank
         if not is_blank:
-            change.refuse_cell(position, "the place of the roof")
+            change.refuse_cell(position, "location", "the roof")
         if value is not None or not is_blank:
             change.cells[position] = None if value is None else round(value / si, DIGITS)
 
@@ -312,7 +312,7 @@ def _fill_outline(change: WorkbookChange, name: str, shape: Shape, source: str) 
         return
     rows = change.rows("outlines", "name", name)
     if rows:
-        change.refuse("outlines", rows[0], "name", f"the place of {name}")
+        change.refuse("outlines", rows[0], "name", "location", name)
     for row in rows:
         change.put("outlines", row, dict.fromkeys(change.table("outlines").columns))
     for x, y in shape.points if isinstance(shape, Polygon) else ():

@@ -175,7 +175,7 @@ def sets_of(
 
 def table(sets: Sets) -> Iterator[str]:
     """Yield the lines of a table: which channel is x, y and z of each set."""
-    rows = [("motion", "", "record", "taken for", "dt [s]", "samples", "format")]
+    rows = [("motion", "", "record", "used as", "dt [s]", "samples", "format")]
     for name, group in sets.items():
         for axis, channel in zip("xyz", group, strict=False):
             cells = (

@@ -125,7 +125,7 @@ def _about_motions(study: InputRow, inputs: Inputs) -> Iterator[Finding]:
         if study["folder"]:
             yield _at("folder", "a folder is named and the Motions worksheet has rows", "keep one")
         else:
-            yield _at("folder", "no folder and no row on the Motions worksheet")
+            yield _at("folder", "no motions are entered", "enter a folder, or rows on Motions")
     is_ground = study.get("recorded_at") is RecordedAt.GROUND
     if is_ground and not inputs["buildings"]:
         text = "ground motions need at least one building"

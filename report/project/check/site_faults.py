@@ -25,6 +25,7 @@ AGREES_G = 0.0051
 # Difference of a site coefficient from its table that is rounding: to two decimals.
 ROUNDING_OF_COEFFICIENTS = 0.0051
 
+_ENTER_S_DS = "enter S_DS, S_MS, or both S_S and F_a"
 _SDC = "seismic design category"
 _Chain = tuple[tuple[str, str], ...]
 
@@ -84,7 +85,7 @@ def _missing_s_ds(row: InputRow, edition: Edition | None) -> Iterator[Finding]:
         return
     if edition is None:  # what S_DS follows from is not known before it
         if all(row[name] is None for name, _ in _CHAINS[0]):
-            yield _fault("s_ds_g", "S_DS is missing", "enter S_DS")
+            yield _fault("s_ds_g", "S_DS is missing", _ENTER_S_DS)
         return
     parameters = site_parameters(row)
     if parameters is None or parameters.s_ds is not None:
@@ -93,7 +94,7 @@ def _missing_s_ds(row: InputRow, edition: Edition | None) -> Iterator[Finding]:
     missing = [n for n in ("s_s_g", "f_a") if row[n] is None] if has_coefficients else []
     field = missing[0] if len(missing) == 1 else "s_ds_g"
     label = {"s_ds_g": "S_DS", "s_s_g": "S_S", "f_a": "F_a"}[field]
-    remedy = "enter S_DS, S_MS, or both S_S and F_a" if has_coefficients else "enter S_DS or S_MS"
+    remedy = _ENTER_S_DS if has_coefficients else "enter S_DS or S_MS"
     yield _fault(field, f"{label} is missing", remedy)
 
 

@@ -18,6 +18,7 @@ from openpyxl.formula.translate import Translator
 from openpyxl.utils import coordinate_to_tuple
 from openpyxl.utils.escape import unescape
 
+from report.project.check.finding_lines import listed
 from report.project.model.choices import ClearanceSource
 from report.project.model.input_rows import InputRow, Place
 from report.project.read.archive import OpenBook, book_of, located, open_book
@@ -31,7 +32,8 @@ from report.project.read.workbook_data import Sheet
 from report.project.workbook import SECTION, SECTIONS
 from report.project.write.style import is_answer
 from report.text.grouping import grouped_by
-from solver.errors import InputError
+from report.text.names import joined
+from solver.errors import InputError, Problem
 from solver.file_checks import check_plain
 from solver.file_writing import locked, write_all
 
@@ -54,7 +56,7 @@ class WorkbookChange:
     written: set[CellPosition] = field(default_factory=set)
     # What `fill_in` will fill in, and why it may not: cells that are filled already.
     cells: dict[CellPosition, Value] = field(default_factory=dict)
-    refusals: list[str] = field(default_factory=list)
+    refusals: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
     tables: dict[str, TableFound] = field(default_factory=dict)
     next_rows: dict[str, int] = field(default_factory=dict)  # free ones of tables with new rows
 
@@ -71,21 +73,30 @@ class WorkbookChange:
     def fill_in(self, *, replace: bool) -> None:
         """Change the cells that were put.
 
-        Raises `InputError` for each that was filled already, unless it may be replaced.
+        Raises `InputError` for those that were filled already, unless they may be replaced.
         """
         if self.refusals and not replace:
-            raise InputError(self.refusals)
+            raise InputError(
+                [
+                    Problem(
+                        f"the {noun} of {joined(list(dict.fromkeys(owners)))} is already filled in",
+                        "use --replace to overwrite it",
+                        listed(addresses),
+                    )
+                    for noun, noted in self.refusals.items()
+                    for addresses, owners in [zip(*noted, strict=True)]
+                ]
+            )
         self.fill(self.cells)
-        self.cells, self.refusals = {}, []
+        self.cells, self.refusals = {}, {}
 
-    def refuse(self, key: str, row: int, name: str, title: str) -> None:
-        """Note that a field of a row is filled already."""
-        self.refuse_cell(self.position(key, row, name), title)
+    def refuse(self, key: str, row: int, name: str, noun: str, owner: str) -> None:
+        """Note that a field of a row is filled already, such as the location of A1."""
+        self.refuse_cell(self.position(key, row, name), noun, owner)
 
-    def refuse_cell(self, position: CellPosition, title: str) -> None:
+    def refuse_cell(self, position: CellPosition, noun: str, owner: str) -> None:
         """Note that a cell is filled already."""
-        text = f"{title} is already filled in; use --replace to overwrite it"
-        self.refusals.append(f"{position.address}: {text}")
+        self.refusals.setdefault(noun, []).append((position.address, owner))
 
     def put(self, key: str, row: int, values: Mapping[str, Value]) -> None:
         """Note values of a row of a table, by field, for `fill_in`."""

@@ -42,8 +42,8 @@ def test_a_project_that_fails_stops_no_other(tmp_path):
     head, *rows = done.stdout.splitlines()
     assert head.split() == ["project", "verdict", "D/C", "time", "package"]
     assert [row.split()[0] for row in rows] == [str(tmp_path / n) for n in ("one", "two", "none")]
-    assert "1 problem " in rows[1]
-    assert "1 problem" in rows[2]
+    assert "1 error " in rows[1]
+    assert "1 error" in rows[2]
     assert (tmp_path / "one" / "out" / "calc-package.pdf").is_file()
     assert not (tmp_path / "two" / "out").exists()
     record = cell_address("Motions/M1/Horizontal record")

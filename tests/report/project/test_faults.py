@@ -177,7 +177,7 @@ CONTRADICTIONS = [
     ({"Site/Rule set": None, "Site/S_DS": None, "Site/S_1": None,
       "Site/Seismic design category": None},
      "Site/Rule set is missing; choose SEAOC PV1-2012, ASCE 7-16 or ASCE 7-22",
-     "Site/S_DS is missing; enter S_DS",
+     "Site/S_DS is missing; enter S_DS, S_MS, or both S_S and F_a",
      "Site/Seismic design category is missing; choose A, B, C, D, E or F, or enter S_1 and S_D1"),
     ({"Arrays/A2/Slope": 120}, "Arrays/A2/Slope is 120 percent; enter 0 to less than 100 percent"),
     (row_cells("Arrays/A2", {"Friction rate": 20, "Static friction": 0.4}),
