@@ -6,7 +6,7 @@ from pathlib import Path
 
 from report.cli.console import say, say_next
 from report.cli.input_errors import input_errors
-from report.drawing_read.ballast import Load, center_of_gravity, loads, read_map
+from report.drawing_read.ballast import Load, center_of_gravity, loads, read_map, repeated
 from report.drawing_read.fill import fill_ballast as write_ballast
 from report.project.check.finding_lines import listed
 from report.project.check.plan_shapes import shapes_of, us_first
@@ -57,6 +57,9 @@ def fill_ballast(
     if outside:
         lines = f"{numbered(len(outside), 'line')} of the map: {listed(map(str, outside))}"
         say(f"outside all arrays: {lines}")
+    if equal := repeated(rows):
+        lines = f"{numbered(len(equal), 'line')} of the map: {listed(map(str, equal))}"
+        say(f"equal to an earlier line and counted again: {lines}; delete those drawn twice")
     say(sheet.path, f": ballast weights filled in: {change.areas}")
     say_next(project, change.has_formulas)
 

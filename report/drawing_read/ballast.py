@@ -13,7 +13,7 @@ import codecs
 import csv
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -101,20 +101,20 @@ def read_map(path: Path, unit_m: float) -> Any:
                 remedy = f"enter a whole number from 0 to {MAX_BLOCKS:,}"
                 wrong.append(f"line {line}: blocks is {value:g}; {remedy}")
         rows_read.append((line, x * unit_m, y * unit_m, blocks))
-    wrong += _repeated(rows_read)
     if wrong:
         raise InputError(wrong)
     return np.array(rows_read).reshape(-1, 4)
 
 
-def _repeated(rows: Sequence[tuple[int, float, float, float]]) -> Iterator[str]:
-    """Yield an error for blocks that two lines have at one location: drawn twice, or a pile."""
-    lines: dict[tuple[float, float, float], int] = {}
+def repeated(rows: Any) -> list[int]:
+    """Return the lines with blocks that are equal to an earlier one: a pile, or drawn twice."""
+    seen: set[tuple[float, float, float]] = set()
+    lines = []
     for line, x, y, blocks in rows:
-        first = lines.setdefault((x, y, blocks), line)
-        if first != line and blocks > 0.0:
-            remedy = "delete one, or enter all blocks at one location on one line"
-            yield f"line {line} is equal to line {first}; {remedy}"
+        if blocks > 0.0 and (x, y, blocks) in seen:
+            lines.append(int(line))
+        seen.add((x, y, blocks))
+    return lines
 
 
 def loads(rows: Any, arrays: Mapping[str, Shape]) -> tuple[dict[str, Load], list[int]]:

@@ -10,7 +10,7 @@ from fixtures.errors import input_problems
 from fixtures.project_parts import FT, LB
 from fixtures.spaces import spaced
 from fixtures.workbooks import arrays, edit, make, problems, project, type_into
-from report.drawing_read.ballast import MAX_BYTES, center_of_gravity, loads, read_map
+from report.drawing_read.ballast import MAX_BYTES, center_of_gravity, loads, read_map, repeated
 from report.project.check.plausible import implausible
 from report.project.model.shapes import Polygon, Rectangle
 from report.project.read.read import read
@@ -37,10 +37,6 @@ pytestmark = pytest.mark.quick
         ("x,y,blocks\n22,5,18,2\n1,2,3,\n", [
             "line 2: 4 values, 3 headings; enter a heading for each column, and decimal points or"
             " semicolons"
-        ]),
-        ("x,y,blocks,note\n1,2,3,a\n1,2,4,\n1.0,2,3,b\n1,2,0,\n1,2,0,\n1,2,3,c\n", [
-            f"line {line} is equal to line 2; delete one, or enter all blocks at one location on"
-            " one line" for line in (4, 7)
         ]),
         (b"x,y,blocks\n\xff\n", ["not a CSV file in UTF-8 or UTF-16; save it as one"]),
         ("x,y,blocks\n" + "1,2,3\n" * 20_000, ["20,001 lines, more than 20,000; combine "
@@ -70,6 +66,11 @@ def test_a_map_is_read_in_its_unit_with_the_separator_that_it_says(file):
 )
 def test_a_map_is_read_with_the_separators_of_spreadsheets(file, content):
     assert read_map(file(content), FT).tolist() == [[2, pytest.approx(35.125 * FT), 155 * FT, 2]]
+
+
+def test_lines_that_are_equal_to_an_earlier_one_are_found(file):
+    path = file("x,y,blocks,note\n1,2,3,a\n1,2,4,\n1.0,2,3,b\n1,2,0,\n1,2,0,\n1,2,3,c\n")
+    assert repeated(read_map(path, FT)) == [4, 7]
 
 
 def test_the_center_of_gravity_is_that_of_blocks_and_modules():
@@ -102,7 +103,9 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
         "Arrays!K8: weight is missing; enter it, or modules, module weight and ballast weight",
     )
     path = tmp_path / "map.csv"
-    path.write_text("x,y,blocks\n40,30,300\n80,60,200\n500,0,1\n")  # A1 is 20 to 100, 15 to 75 ft
+    path.write_text(
+        "x,y,blocks\n40,30,300\n80,60,200\n500,0,1\n500,0,1\n"
+    )  # A1 is 20 to 100, 15 to 75 ft
     words = (path, book, "--units", "ft", "--block-weight", 32, "lb")
     output = ran(*words)
     # 16,000 lb at 56, 42 ft and 24,000 lb at 60, 45 ft.
@@ -110,7 +113,8 @@ def test_the_ballast_weight_is_filled_in_and_gives_the_weight(tmp_path):
     assert " at x 58.40 ft (17.80 m), y 43.80 ft (13.35 m); from the centroid" in output
     assert "outline −1.60 ft (−0.49 m) in x, −1.20 ft (−0.37 m) in y" in output
     assert "A2: no blocks" in output
-    assert "outside all arrays: 1 line of the map: 4" in output
+    assert "outside all arrays: 2 lines of the map: 4, 5" in output
+    assert "equal to an earlier line and counted again: 1 line of the map: 5; delete" in output
     sheet = read(book)
     assert sheet.project.arrays[0].weight_n == pytest.approx(40000 * LB)
     (echoed,) = (row for row in sheet.echo if row.cell == "K8" and row.label == "Weight")
