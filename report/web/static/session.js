@@ -90,14 +90,14 @@ function createRuns(state, set, assess, fail) {
     clearTimeout(timer);
     version += 1;
     stage = moves ? "moving" : "settling";
-    set({ values: present(values), phase: stage, turned: {}, ...former(state.answer) });
+    Object.assign(state, { values: present(values), phase: stage, turned: {}, ...former(state.answer) });
   }
 
   function rest() {
     clearTimeout(timer);
     if (stage === "moving") stage = "settling";
+    askFull(); // on its way while the page draws that it waits
     set({ phase: "settling" });
-    askFull();
     timer = setTimeout(askMeanwhile, SLOW_MS);
   }
 
@@ -113,18 +113,18 @@ function createRuns(state, set, assess, fail) {
       const rests = isStep && stage === "full";
       isHeld = !isStep;
       change(values, !rests);
+      timer = setTimeout(rest, isHeld ? HOLD_MS : REST_MS);
       if (rests) rest();
-      else askMoving();
-      if (stage === "moving") timer = setTimeout(rest, isHeld ? HOLD_MS : REST_MS);
+      else askMoving(); // likewise: drawing takes 2 ms
+      set({});
     },
     // The values of the workbook have their answer; others are asked in full.
     at(all) {
       isHeld = false;
       change(all, false);
-      if (isAsTyped(state)) {
-        stage = "full";
-        set(answered(state.project.answer, state.values));
-      } else rest();
+      if (isAsTyped(state)) stage = "full";
+      if (stage === "full") set(answered(state.project.answer, state.values));
+      else rest();
     },
   };
 }

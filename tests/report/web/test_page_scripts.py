@@ -74,6 +74,14 @@ STEPS = {
         while (asked.length < 2) await pause(5);
         return [performance.now() - start < 100, asked.map(({ values }) => values.x)];""",
         [True, [1, 2]]),
+    "what is asked is on its way before the page draws that it waits": ("""
+        const sent = [];
+        session.draws(() => sent.push(asked.length));
+        session.move({ x: 1 });
+        session.release();
+        session.enter({ x: 2 });
+        return sent;""",
+        [1, 2, 2]),
     "the full model answers at rest, and a late provisional answer is dropped": ("""
         session.move({ x: 1 });
         session.release();
