@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from report.text.units import Quantity, Rounding, Show, Unit, pair, with_unit
 from solver.rules.limit import Limit, Measure, at_least
@@ -46,6 +47,9 @@ def capacity(value: float, quantity: Quantity = Quantity.RATIO, mark: str = "") 
     return Amount(value, Rounding.DOWN, quantity, mark)
 
 
+# Asked again and again for the same values: without what it keeps, an answer of the page about 30
+# arrays with 61 clearances would take 40 ms instead of 35.
+@lru_cache(4096)
 def in_order(
     found: Amount, limit: Amount, decimals: int, *, is_at_least: bool, size: float = 1.0
 ) -> tuple[str, str]:

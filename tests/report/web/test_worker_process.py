@@ -19,6 +19,7 @@ import pytest
 import report.assessment
 from fixtures.paths import ROOT
 from report.web.processes import WorkerProcess, tell
+from report.web.worker import begun
 from solver.errors import DefectError, InputError
 
 
@@ -95,6 +96,14 @@ def tell_twice():
     tell("one")
     tell(2)
     return {"done": True}
+
+
+def test_no_collection_interrupts_the_answers_of_a_process_of_the_page(tmp_path):
+    process = begun(tmp_path)
+    try:
+        assert process.submit("gc:get_threshold").result()[0] > 50_000
+    finally:
+        process.shutdown()
 
 
 def test_a_process_tells_how_far_it_is():
