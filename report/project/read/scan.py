@@ -91,7 +91,7 @@ class Scan(ContentHandler):
     extent: UsedRange = field(default_factory=UsedRange)
     formulas: dict[str, tuple[str, str]] = field(default_factory=dict)
     cells: set[tuple[int, int]] = field(default_factory=set)  # that are there: row and column
-    computed: set[tuple[int, int]] = field(default_factory=set)  # formulas with a saved value
+    computed: set[tuple[int, int]] = field(default_factory=set)  # formulas with a saved text
     # Of the part of the workbook, how it was calculated (ECMA-376-1, 18.2.2).
     calculation: dict[str, str] = field(default_factory=dict)
     outside: list[str] = field(default_factory=list)  # what it takes values or pictures from
@@ -101,6 +101,7 @@ class Scan(ContentHandler):
     _shared: dict[str, tuple[str, str]] = field(default_factory=dict)
     _formula: Mapping[str, str] | None = None
     _last_formula: tuple[int, int] = (0, 0)
+    _has_text: bool = False  # whether the value of a formula in the cell is a text
     _text: list[str] = field(default_factory=list)
     _spread_cells: int = 0
     _row: int = 0
@@ -124,9 +125,12 @@ class Scan(ContentHandler):
                 if position in self.cells:
                     self.twice = f"{get_column_letter(self._column)}{self._row}"
                 self.cells.add(position)
+                self._has_text = attrs.get("t") == "str"
             case "v" | "is":
                 self.extent.grow(self._row, self._column)
-                if self._last_formula == (self._row, self._column):
+                # An empty value without a type is a formula that was never computed: openpyxl
+                # writes it.
+                if self._has_text and self._last_formula == (self._row, self._column):
                     self.computed.add(self._last_formula)
             case _ if element in _FORMULAS:
                 self._formula, self._text = dict(attrs), []

@@ -345,22 +345,32 @@ def test_a_range_over_a_whole_sheet_is_rejected_before_it_is_made(tmp_path, xml)
     assert line.startswith(f"{part}: merged cells or links over A")
 
 
+def with_formula(part, place, typed, path):
+    """Return a workbook whose cell has a formula, typed as a text or not, and a saved value."""
+    cell = place.partition("!")[2]
+    found = rf'<c r="{cell}"[^>]*?(?:/>|>.*?</c>)'
+    made = f'<c r="{cell}"{typed}</c>'
+    return rewritten(path, part, lambda data: re.sub(found, made, data.decode(), count=1).encode())
+
+
 @pytest.mark.parametrize("saved", ["<v></v>", "<v/>"])
 def test_a_formula_whose_value_is_an_empty_text_is_a_blank_cell(tmp_path, saved):
     path = make(tmp_path)
     blank, needed = (address(path, f"Arrays/A1/{name}") for name in ("Electrical slack", "Slope"))
-    part, formula = sheet_part(path, "Arrays"), '<f>IF(1=1,"",5)</f>'
-
-    def with_formula(place):
-        cell = place.partition("!")[2]
-        found = rf'<c r="{cell}"[^>]*?(?:/>|>.*?</c>)'
-        made = f'<c r="{cell}" t="str">{formula}{saved}</c>'
-        return lambda data: re.subn(found, made, data.decode(), count=1)[0].encode()
-
-    book = read_workbook(rewritten(path, part, with_formula(blank)))
+    part, typed = sheet_part(path, "Arrays"), f' t="str"><f>IF(1=1,"",5)</f>{saved}'
+    book = read_workbook(path := with_formula(part, blank, typed, path))
     assert book.input.arrays[0].slack_m is None
-    path = rewritten(path, part, with_formula(needed))
+    path = with_formula(part, needed, typed, path)
     assert problems(path) == (f"{needed}: slope is missing; enter a number of 0 or more",)
+
+
+@pytest.mark.parametrize("saved", ["<v></v>", "<v/>", ""])
+def test_a_formula_that_was_never_computed_is_refused(tmp_path, saved):
+    path = make(tmp_path)
+    blank = address(path, "Arrays/A1/Electrical slack")
+    path = with_formula(sheet_part(path, "Arrays"), blank, f"><f>40+20</f>{saved}", path)
+    (line,) = problems(path)
+    assert "is a formula with no saved value (=40+20)" in line
 
 
 SHEET = b"""<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>
