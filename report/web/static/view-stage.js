@@ -83,7 +83,7 @@ function createTrack(run, title, base) {
     run.t_prd_s !== null && svg("circle", { class: "peak", r: 2.6, cx, cy }),
   );
   const isFromGround = base === run.base;
-  const scene = svg("svg", { viewBox: "-50 -50 100 100", preserveAspectRatio: "xMidYMin" }, onRoof, isFromGround && svg("path", { class: "track-ground", d: "M-50 0h7M50 0h-7M0 50v-7" }));
+  const scene = svg("svg", { viewBox: "-50 -50 100 100", preserveAspectRatio: "xMidYMin" }, onRoof, isFromGround && svg("path", { class: "track-ground", d: "M-500 0H-43M500 0H43M0 50v-7" }));
   const words = [title, moves && `Motion ${factor === 1 ? "to scale" : `× ${factor}`}`];
 
   const gone = (time) => {
