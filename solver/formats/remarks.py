@@ -47,8 +47,8 @@ _DAMPING = re.compile(
 )
 _NUMBER = r"\d++(?:\.\d*+)?(?:[eE][+-]?\d+)?"
 _FACTOR = re.compile(
-    r"\b(?:scal(?:e|es|ed|ing)|multipl(?:y|ied|ier)|(?:conversion|calibration|multiplication"
-    r"|amplitude)[ _]factor|factor(?=\s?[:=])|gain|divi(?:de|ded|sor)|times(?= \d))\b"
+    r"\b(?:scal(?:e|es|ed|ing)|multiply|multiplie[dr]|(?:conversion|calibration|multiplication"
+    r"|amplitude)[ _]factor|factor(?=\s?[:=])|gain|divide[ds]?|divisor|times(?= \d))\b"
     rf"[^\d;]{{0,20}}(?P<number>{_NUMBER}(?:\s?[:/]\s?\d+)?)(?![\d/(-])|\b1 ?g ?= ?[\d.]++"
     rf"|(?<![\w.)*])[x×*]\s?(?:10\s?\^\s?-?\d|{_NUMBER})\b|\bnormali[sz]ed\b"
     r"|\bdivided by\b|\b(?:raw|digital|in) counts\b|\b(?:ln|log(?:10)?)\s?\(|\bLSB\b|\bm?V/g\b"

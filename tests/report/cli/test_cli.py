@@ -229,7 +229,7 @@ def test_completion_prints_the_script_of_a_shell(shell):
     ("words", "told"),
     [
         (("rreport",), "No such command 'rreport'. Did you mean 'report'?"),
-        (("plan", "raed"), "No such command 'raed'. Did you mean 'read'?"),
+        (("plan", "rread"), "No such command 'rread'. Did you mean 'read'?"),
         (("report", "x", "--fail-on"), "Did you mean"),
         (("sign", "README.md", "--p12", "READNE.md"),
          "'READNE.md' does not exist; did you mean 'README.md'?"),
