@@ -263,6 +263,8 @@ def units_in(line: str) -> list[str]:
     places = [*_IN_BRACKETS.findall(line), *UNITS_OF.findall(line), *_IN_PROSE.findall(line)]
     named = [parse(word) for word in re.split(r"[\s,;]+", line)]
     places += [word for word in _BARE.findall(line) if "/" in word or word.lower() == "gal"]
+    # A unit alone is no heading here: it may be of a number before it.
+    named = [heading for heading in named if heading.unit != heading.text]
     places += [heading.unit for heading in named if heading.kind is Kind.ACCELERATION]
     plain = [place.rstrip(".").removesuffix("'s").removesuffix("'S") for place in places]
     return [place for place in plain if not math.isnan(unit_size(place))]

@@ -145,7 +145,7 @@ def test_an_override_is_a_row_with_both_numbers_and_a_condition():
     assert spaced((found.found, found.limit)) == ("3 in‡, agreed", "≥ 6 in")
     assert found.clause == "PV1-2012"
     (slope,) = of_overrides(projects.project(overrides=overrides(analysis_max_slope_deg=10.0)))
-    assert spaced(slope.limit) == "≤ 7 deg"
+    assert spaced(slope.limit) == "≤ 7 deg†"
     plain, done = overridden(), overridden(separation_fixed=0.5)
     more = [row for row in done.open if row not in plain.open]
     assert [row.id for row in more] == ["override"]

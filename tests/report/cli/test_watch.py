@@ -114,7 +114,7 @@ def test_a_workbook_that_is_not_finished_is_read_again(tmp_path, patient, start)
 
 def test_a_workbook_that_is_not_there_is_an_error_at_once(tmp_path):
     assert "no such file" in errors_of("watch", tmp_path / "none.xlsx")
-    assert "no such file" in errors_of("watch", tmp_path)
+    assert "a folder without input.xlsx" in errors_of("watch", tmp_path)
 
 
 @pytest.mark.nightly
