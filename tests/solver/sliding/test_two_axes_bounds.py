@@ -139,8 +139,8 @@ def test_a_block_that_hardly_presses_on_the_roof_is_not_stopped_at_speed():
 
 
 def test_a_block_that_creeps_on_where_the_run_stops_stays_within_the_bound():
-    # It is braked to 1 um/s, then by 1e-7 m/s2: a rough run takes that speed for a stop.
-    dt, mu, speed, brake = 0.1, 0.3, 1e-6, 1e-7
+    # It is braked to 0.3 um/s, then by 1e-7 m/s2: a rough run takes that speed for a stop.
+    dt, mu, speed, brake = 0.1, 0.3, 3e-7, 1e-7
     shove, falls = 4.0, 1.5 * 4.0 - speed / dt - 0.5 * brake
     ax = -(mu * G + np.array([shove, shove, -falls] + [-brake] * 150))
     run = replace(frictionless(ax, 0.0 * ax, dt), friction=coulomb(mu))
