@@ -27,6 +27,9 @@ def page(package: PackageData) -> Mapping[str, object]:
     lowered_checks = [check for check in done.checks if check.id in LOWERING]
     return {
         "data": data,
+        "project": data.project,
+        "membrane": data.friction_tests.membrane,
+        "support": data.friction_tests.support,
         "scope": _scope(package),
         "rules": done.rules.name,
         "verdict": stamp(done.verdict, done.verdict.value),
